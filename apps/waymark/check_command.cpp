@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "commands.hpp"
+#include "waymark/eval/truth_check.hpp"
+#include "waymark/report/results.hpp"
+
+namespace waymark::app {
+namespace {
+
+struct Request {
+  std::string input;
+  SettingsFlags flags;
+  Verbosity verbosity;
+};
+
+/// One kind of event in a log.
+struct Stream {
+  std::int64_t events = 0;
+  Stamp first;
+  Stamp last;
+  Duration longest_gap{0};
+
+  void see(Stamp stamp) {
+    if (events++ == 0) first = stamp;
+    else longest_gap = std::max(longest_gap, stamp - last);
+    last = stamp;
+  }
+  [[nodiscard]] double duration_s() const { return to_seconds(last - first); }
+  [[nodiscard]] double rate_hz() const { return duration_s() > 0.0 ? static_cast<double>(events - 1) / duration_s() : 0.0; }
+};
+
+/// Everything that one pass over a log shows.
+struct Contents {
+  std::map<std::string, Stream> streams;  ///< by name
+  std::map<LandmarkId, std::int64_t> sightings;
+  std::int64_t unidentified = 0;
+  std::set<std::string> measured;  ///< "range and bearing", ...
+  std::vector<eval::Sighting> placed;
+  std::vector<eval::TruthSample> truth;
+  std::vector<std::string> notes;
+  std::optional<Error> error;
+};
+
+const char* name_of(const EventContent& content) {
+  static constexpr std::array names{"wheel angles",    "velocity", "steering", "odometry poses", "images",
+                                    "observations", "ground truth"};
+  return names[content.index()];
+}
+
+const char* kind_of(const Measurement& value) {
+  static constexpr std::array kinds{"range and bearing", "range", "bearing", "pixel"};
+  return kinds[value.index()];
+}
+
+void look_at(const Observations& observations, Stamp stamp, const Pose2& T_robot_sensor, Contents& contents) {
+  for (const Observation& observation : observations) {
+    contents.measured.insert(kind_of(observation.value));
+    if (!observation.id) {
+      ++contents.unidentified;
+      continue;
+    }
+    ++contents.sightings[*observation.id];
+    if (const auto* z = std::get_if<RangeBearing>(&observation.value)) {
+      const Eigen::Vector2d ray(std::cos(z->bearing_rad), std::sin(z->bearing_rad));
+      contents.placed.push_back({stamp, *observation.id, T_robot_sensor * Eigen::Vector2d(z->range_m * ray)});
+    }
+  }
+}
+
+Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
+  Contents contents;
+  while (true) {
+    auto event = source.next();
+    if (!event) {
+      contents.error = event.error();
+      break;
+    }
+    if (!*event) break;
+    const auto& [stamp, content] = **event;
+    contents.streams[name_of(content)].see(stamp);
+    if (const auto* observations = std::get_if<Observations>(&content)) look_at(*observations, stamp, T_robot_sensor, contents);
+    if (const auto* truth = std::get_if<Truth>(&content)) contents.truth.push_back({stamp, *truth});
+  }
+  contents.notes = source.notes();
+  return contents;
+}
+
+/// Landmarks of the survey that the observations contradict: by the true path where there is one, else by the map that
+/// a filter makes of the log.
+std::vector<std::string> survey_oddities(const Request& request, const LogInfo& log, const Contents& contents) {
+  if (log.landmarks.empty() || contents.placed.empty()) return {};
+  const Eigen::Vector2d truth_sensor_m = log.truth_sensor_m.value_or(Eigen::Vector2d::Zero());
+  if (!contents.truth.empty()) {
+    const auto seen = eval::place_sightings(contents.placed, eval::TruthTrack(contents.truth), truth_sensor_m);
+    return describe(eval::find_oddities(seen, log.landmarks, Pose2{}));
+  }
+  const auto result = run_log(request.input, request.flags.settings());
+  if (!result) return {};
+  return describe(eval::compare_maps(result->recording.filter->snapshot().landmarks, log.landmarks));
+}
+
+std::vector<std::string> find_oddities(const Request& request, const LogInfo& log, const Contents& contents) {
+  std::vector<std::string> oddities = contents.notes;
+  for (const auto& [name, stream] : contents.streams)
+    if (name != "ground truth" && name != "observations" && to_seconds(stream.longest_gap) > 1.0)
+      oddities.push_back(fmt::format("{}: longest gap {:.2f} s", name, to_seconds(stream.longest_gap)));
+  if (contents.unidentified > 0)
+    oddities.push_back(fmt::format("{} observations without identity", contents.unidentified));
+  std::ranges::move(survey_oddities(request, log, contents), std::back_inserter(oddities));
+  return oddities;
+}
+
+/// What to run on it, or why nothing can be run.
+std::string advice(const Request& request, const Contents& contents) {
+  const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
+  if (!has("wheel angles") && !has("velocity") && !has("odometry poses"))
+    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv or odometry.csv)";
+  if (!has("observations")) return "only dead reckoning: there are no observations";
+  std::string command = "waymark run " + request.input + " -o out";
+  for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
+  return command;
+}
+
+void print_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities, const std::string& next) {
+  fmt::print("{} ({})\n", log.name, log.format);
+  for (const auto& [name, stream] : contents.streams)
+    fmt::print("  {:<16}{:>8} events  {:>8.1f} s  {:>7.1f} Hz  longest gap {:.2f} s\n", name, stream.events,
+               stream.duration_s(), stream.rate_hz(), to_seconds(stream.longest_gap));
+  for (const auto& kind : contents.measured) fmt::print("  observed: {}\n", kind);
+  if (!contents.sightings.empty()) {
+    fmt::print("  identities: {}:", contents.sightings.size());
+    for (const auto& [id, count] : contents.sightings) fmt::print(" {} ({}x)", to_string(id), count);
+    fmt::print("\n");
+  }
+  fmt::print("  surveyed landmarks: {}\n", log.landmarks.size());
+  for (const auto& [key, value] : log.settings) fmt::print("  the log sets {} = {}\n", key, value);
+  for (const auto& oddity : oddities) fmt::print("  odd: {}\n", oddity);
+  fmt::print("run: {}\n", next);
+}
+
+void print_json(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities, const std::string& next) {
+  nlohmann::ordered_json json{{"name", log.name}, {"format", log.format}};
+  for (const auto& [name, stream] : contents.streams)
+    json["streams"].push_back({{"name", name},
+                               {"events", stream.events},
+                               {"duration_s", stream.duration_s()},
+                               {"rate_hz", stream.rate_hz()},
+                               {"longest_gap_s", to_seconds(stream.longest_gap)}});
+  json["observed"] = contents.measured;
+  json["identities"] = nlohmann::ordered_json::object();
+  for (const auto& [id, count] : contents.sightings) json["identities"][to_string(id)] = count;
+  json["surveyed_landmarks"] = log.landmarks.size();
+  json["settings"] = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : log.settings) json["settings"][key] = value;
+  json["odd"] = oddities;
+  json["run"] = next;
+  fmt::print("{}\n", json.dump(2));
+}
+
+Result<void> check_log(const Request& request) {
+  auto opened = open_input(request.input, request.flags.settings());
+  if (!opened) return opened.error();
+  const Contents contents = read_contents(*opened->source, opened->config.sensor.T_robot_sensor());
+  const LogInfo& log = opened->source->info();
+  const auto oddities = find_oddities(request, log, contents);
+  const std::string next = advice(request, contents);
+  (request.verbosity.json ? print_json : print_text)(log, contents, oddities, next);
+  if (contents.error) return *contents.error;
+  return {};
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Work& work) {
+  auto* command = app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
+  auto request = std::make_shared<Request>();
+  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")->required();
+  request->flags.add_to(*command);
+  command->add_flag("--json", request->verbosity.json, "print the findings as JSON on standard output and nothing else there");
+  command->footer("Example:\n  waymark check MRCLAM_Dataset1 --set input.robot=2");
+  command->callback([&work, request] { work = [request] { return check_log(*request); }; });
+}
+
+}  // namespace waymark::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "console.hpp"
+#include "waymark/core/result.hpp"
+#include "waymark/slam/config.hpp"
+
+namespace waymark::app {
+
+/// What a command line asks for, to be done after all of it was understood.
+using Work = std::function<Result<void>()>;
+
+/// Each adds its subcommand to `app`; parsing it sets `work`.
+void add_run(CLI::App& app, Work& work);
+void add_demo(CLI::App& app, Work& work);
+void add_sim(CLI::App& app, Work& work);
+void add_eval(CLI::App& app, Work& work);
+void add_check(CLI::App& app, Work& work);
+void add_config(CLI::App& app, Work& work);
+
+/// --config, --set, --seed and --threads, with the same meaning wherever they appear.
+struct SettingsFlags {
+  std::string file;
+  std::vector<std::string> assignments;
+  std::string seed;
+  std::string threads;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] UserSettings settings() const;
+};
+
+void add_verbosity(CLI::App& command, Verbosity& verbosity);
+
+/// The shell command that was given, for the report.
+void remember_command_line(int argc, char** argv);
+[[nodiscard]] const std::string& command_line();
+
+}  // namespace waymark::app

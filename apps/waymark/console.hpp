@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace waymark::app {
+
+/// How much to say and in which form; the same flags on every command.
+struct Verbosity {
+  bool quiet = false;
+  bool json = false;
+
+  /// Text for people goes to standard output unless something else was asked for.
+  [[nodiscard]] bool talks() const { return !quiet && !json; }
+};
+
+/// A bar on a terminal's standard error, redrawn at most ten times a second; nothing in a pipe.
+class ProgressBar {
+ public:
+  ProgressBar(std::string what, const Verbosity& verbosity);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string what_;
+  bool visible_;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_{};
+};
+
+/// Whether the user pressed Ctrl-C since catch_interrupts(). A second Ctrl-C ends the program at once.
+void catch_interrupts();
+[[nodiscard]] bool interrupted();
+
+}  // namespace waymark::app

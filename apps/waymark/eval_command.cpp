@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "waymark/eval/evaluate.hpp"
+#include "waymark/io/map_files.hpp"
+#include "waymark/io/tum.hpp"
+#include "waymark/report/metrics.hpp"
+
+namespace waymark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  std::string result;
+  std::string truth;
+  SettingsFlags flags;
+  Verbosity verbosity;
+};
+
+/// What is to be scored: a results folder with its map, or a bare trajectory.
+struct Estimate {
+  Trajectory trajectory;
+  std::vector<LandmarkEstimate> map;
+};
+
+Result<Estimate> read_estimate(const fs::path& path) {
+  const bool folder = fs::is_directory(path);
+  auto trajectory = read_tum(folder ? path / "trajectory.tum" : path);
+  if (!trajectory) return trajectory.error();
+  Estimate estimate{std::move(*trajectory), {}};
+  if (!folder || !fs::exists(path / "map.csv")) return estimate;
+  auto map = read_map_csv(path / "map.csv");
+  if (!map) return map.error();
+  estimate.map = std::move(*map);
+  return estimate;
+}
+
+/// The reference: a log of any format, or a TUM trajectory.
+struct Reference {
+  eval::TruthTrack track;
+  std::vector<TrueLandmark> landmarks;
+  eval::EvaluateOptions options;
+};
+
+Result<Reference> read_log_truth(const std::string& input, const UserSettings& user) {
+  auto opened = open_input(input, user);
+  if (!opened) return opened.error();
+  Reference reference;
+  std::vector<eval::TruthSample> samples;
+  while (true) {
+    auto event = opened->source->next();
+    if (!event) return event.error();
+    if (!*event) break;
+    if (const auto* truth = std::get_if<Truth>(&(*event)->content)) samples.push_back({(*event)->stamp, *truth});
+  }
+  const LogInfo& log = opened->source->info();
+  reference.track = eval::TruthTrack(std::move(samples));
+  reference.landmarks = log.landmarks;
+  if (log.truth_sensor_m) reference.options.associate.truth_sensor_m = *log.truth_sensor_m;
+  return reference;
+}
+
+Result<Reference> read_reference(const std::string& input, const UserSettings& user) {
+  if (!fs::is_regular_file(input)) return read_log_truth(input, user);
+  auto trajectory = read_tum(input);
+  if (!trajectory) return trajectory.error();
+  return Reference{eval::TruthTrack::from_trajectory(*trajectory), {}, {}};
+}
+
+Result<void> evaluate(const Request& request) {
+  auto estimate = read_estimate(request.result);
+  if (!estimate) return estimate.error();
+  auto reference = read_reference(request.truth, request.flags.settings());
+  if (!reference) return reference.error();
+  if (reference->track.empty() && reference->landmarks.empty())
+    return Error{request.truth + ": holds no ground truth: expected truth.csv or landmarks.csv, or a TUM trajectory"};
+  const auto evaluation = eval::evaluate(estimate->trajectory, estimate->map, reference->track, reference->landmarks, {},
+                                         reference->options);
+  if (evaluation.pairs == 0 && !reference->track.empty())
+    return Error{fmt::format("{}: no stamp in common with {}: the estimate covers {} to {} s, the truth {} to {} s",
+                             request.result, request.truth, to_string(estimate->trajectory.front().stamp),
+                             to_string(estimate->trajectory.back().stamp),
+                             to_string(reference->track.samples().front().stamp),
+                             to_string(reference->track.samples().back().stamp))};
+  fmt::print("{}", request.verbosity.json ? truth_json_text(evaluation) : to_text(evaluation));
+  return {};
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, Work& work) {
+  auto* command = app.add_subcommand("eval", "Errors of a result against ground truth, aligned and not");
+  auto request = std::make_shared<Request>();
+  command->add_option("result", request->result, "a folder that `waymark run` wrote, or a TUM trajectory")->required();
+  command->add_option("--truth", request->truth, "a log with ground truth, or a TUM trajectory")->required()->type_name("LOG_OR_FILE");
+  request->flags.add_to(*command);
+  command->add_flag("--json", request->verbosity.json, "print the errors as JSON on standard output and nothing else there");
+  command->footer("Examples:\n  waymark eval out --truth LOG\n  waymark eval mine.tum --truth reference.tum --json");
+  command->callback([&work, request] { work = [request] { return evaluate(*request); }; });
+}
+
+}  // namespace waymark::app

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+
+namespace waymark::app {
+namespace {
+
+std::string remembered_command_line;
+
+constexpr const char* kFooter =
+    "Example, no data needed:\n"
+    "  waymark demo                                   simulate, run both filters, write a report\n"
+    "Example, a recording:\n"
+    "  waymark check LOG                              what is in it, and what to run on it\n"
+    "  waymark run LOG -o out && xdg-open out/report.html\n\n"
+    "Exit status: 0 done, 1 failed while running, 2 wrong usage or bad input.";
+
+int report(const Error& error) {
+  fmt::print(stderr, "waymark: {}\n", error.message);
+  return error.kind == Error::Kind::kBadInput ? 2 : 1;
+}
+
+}  // namespace
+
+void SettingsFlags::add_to(CLI::App& command) {
+  command.add_option("--config", file, "YAML file with config keys (see `waymark config`)")->type_name("FILE");
+  command.add_option("--set", assignments, "one config key, for example --set sensor.range_sigma_m=0.1")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", seed, "seed of all random numbers (config key seed)")->type_name("N");
+  command.add_option("--threads", threads, "threads; the result does not depend on it (config key threads)")->type_name("N");
+}
+
+UserSettings SettingsFlags::settings() const {
+  UserSettings user;
+  if (!file.empty()) user.file = file;
+  user.assignments = assignments;
+  if (!seed.empty()) user.assignments.push_back("seed=" + seed);
+  if (!threads.empty()) user.assignments.push_back("threads=" + threads);
+  return user;
+}
+
+void add_verbosity(CLI::App& command, Verbosity& verbosity) {
+  command.add_flag("--quiet", verbosity.quiet, "print nothing but errors");
+  command.add_flag("--json", verbosity.json, "print the result as JSON on standard output and nothing else there");
+}
+
+void remember_command_line(int argc, char** argv) {
+  remembered_command_line = "waymark";
+  for (int i = 1; i < argc; ++i) remembered_command_line += std::string(" ") + argv[i];
+}
+
+const std::string& command_line() { return remembered_command_line; }
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"Waymark: real-time landmark SLAM for wheeled robots", "waymark"};
+  app.set_version_flag("--version", "waymark " WAYMARK_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  Work work;
+  add_run(app, work);
+  add_demo(app, work);
+  add_sim(app, work);
+  add_eval(app, work);
+  add_check(app, work);
+  add_config(app, work);
+  remember_command_line(argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
+  } catch (const CLI::ParseError& wrong) {
+    return report({std::string(wrong.what()) + "; see waymark --help", Error::Kind::kBadInput});
+  }
+  const auto done = work();
+  return done ? 0 : report(done.error());
+}
+
+}  // namespace waymark::app
+
+int main(int argc, char** argv) {
+  try {
+    return waymark::app::run_program(argc, argv);
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "waymark: {}\n", problem.what());
+    return 1;
+  }
+}

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "waymark/io/files.hpp"
+#include "waymark/report/results.hpp"
+
+namespace waymark::app {
+namespace {
+
+struct Request {
+  std::string input;
+  std::string output = "waymark-out";
+  std::string filter;
+  std::string observe;
+  std::string associate;
+  std::string particles;
+  TimeSpan span;
+  SettingsFlags flags;
+  Verbosity verbosity;
+
+  [[nodiscard]] UserSettings settings() const {
+    UserSettings user = flags.settings();
+    const auto set = [&user](const char* key, const std::string& value) {
+      if (!value.empty()) user.assignments.push_back(std::string(key) + "=" + value);
+    };
+    set("filter", filter);
+    set("observe", observe);
+    set("associate", associate);
+    set("fastslam.particles", particles);
+    return user;
+  }
+};
+
+void print_summary(const Request& request, const RunResult& result) {
+  if (request.verbosity.json) fmt::print("{}", to_json(result.metrics));
+  if (!request.verbosity.talks()) return;
+  fmt::print("{}", to_text(result.metrics));
+  for (const auto& note : result.recording.notes) fmt::print("  note: {}\n", note);
+  fmt::print("report: {}/report.html\n", request.output);
+}
+
+Result<void> run(const Request& request) {
+  if (auto made = ensure_output_folder(request.output); !made) return made;
+  catch_interrupts();
+  auto result = [&request] {
+    ProgressBar bar("running", request.verbosity);
+    return run_log(request.input, request.settings(), request.span, [&bar](double fraction) {
+      bar.show(fraction);
+      return !interrupted();
+    });
+  }();
+  if (!result) return result.error();
+  if (auto written = write_results(*result, request.output, command_line()); !written) return written;
+  print_summary(request, *result);
+  if (result->recording.error) return *result->recording.error;
+  return {};
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Work& work) {
+  auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
+  auto request = std::make_shared<Request>();
+  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")->required();
+  command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")->type_name("OUT");
+  command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
+  command->add_option("--observe", request->observe, "part of the observations to use: range-bearing")->type_name("KIND");
+  command->add_option("--associate", request->associate, "how observations find their landmarks: known")->type_name("HOW");
+  command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
+  command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");
+  command->add_option("--to", request->span.to_s, "end this many seconds into the log")->type_name("S");
+  request->flags.add_to(*command);
+  add_verbosity(*command, request->verbosity);
+  command->footer(
+      "Examples:\n"
+      "  waymark run LOG -o out\n"
+      "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
+      "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
+      "Writes trajectory.tum, map.csv, map.waymark, config.yaml, metrics.json and report.html.");
+  command->callback([&work, request] { work = [request] { return run(*request); }; });
+}
+
+}  // namespace waymark::app

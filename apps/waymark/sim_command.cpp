@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "commands.hpp"
+#include "waymark/io/log_writer.hpp"
+#include "waymark/sim/options.hpp"
+
+namespace waymark::app {
+namespace {
+
+struct Request {
+  std::string scenario;
+  std::string output;
+  SettingsFlags flags;
+  Verbosity verbosity;
+};
+
+std::string scenario_list() {
+  std::string list;
+  for (const auto& name : sim::scenario_names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+Result<void> simulate(const Request& request) {
+  auto simulation = open_simulation(request.scenario, request.flags.settings());
+  if (!simulation) return simulation.error();
+  if (auto written = write_log(**simulation, request.output); !written) return written;
+  if (request.verbosity.talks())
+    fmt::print("wrote {0}\nnext: waymark run {0} -o out\n", request.output);
+  return {};
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, Work& work) {
+  auto* command = app.add_subcommand("sim", "Write a simulated log folder with ground truth");
+  auto request = std::make_shared<Request>();
+  command->add_option("scenario", request->scenario, "one of " + scenario_list())->required();
+  command->add_option("-o,--output", request->output, "log folder to write")->required()->type_name("LOG");
+  request->flags.add_to(*command);
+  command->add_flag("--quiet", request->verbosity.quiet, "print nothing but errors");
+  command->footer("Example:\n  waymark sim study -o study-log --seed 7\n"
+                  "  waymark sim square -o log --set sim.landmarks=40 --set sim.field_of_view_deg=180");
+  command->callback([&work, request] { work = [request] { return simulate(*request); }; });
+}
+
+}  // namespace waymark::app

@@ -1,0 +1,19 @@
+# Every package that the libraries need is found here, once, and repeated for users by waymarkConfig.cmake.
+
+set(WAYMARK_DEPENDENCIES "")
+
+# waymark_dependency(<package> [find_package arguments...])
+macro(waymark_dependency)
+  find_package(${ARGV} REQUIRED)
+  string(REPLACE ";" " " waymark_dependency_line "find_dependency(${ARGV})")
+  string(APPEND WAYMARK_DEPENDENCIES "${waymark_dependency_line}\n")
+endmacro()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+waymark_dependency(Threads)
+waymark_dependency(Eigen3 3.4 NO_MODULE)
+waymark_dependency(fmt CONFIG)
+waymark_dependency(spdlog CONFIG)
+waymark_dependency(yaml-cpp CONFIG)
+waymark_dependency(nlohmann_json CONFIG)
+waymark_dependency(hwy CONFIG)

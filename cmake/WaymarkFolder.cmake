@@ -1,0 +1,118 @@
+# A folder under waymark/ is one static library with one include directory of its own, so that an #include of a folder
+# that it does not depend on does not compile.
+
+# waymark_add_folders(): adds what WAYMARK_FOLDERS lists and has a CMakeLists.txt, in that order.
+function(waymark_add_folders)
+  foreach(name IN LISTS WAYMARK_FOLDERS)
+    if(EXISTS "${PROJECT_SOURCE_DIR}/waymark/${name}/CMakeLists.txt")
+      add_subdirectory("waymark/${name}" "folders/${name}")
+    endif()
+  endforeach()
+endfunction()
+
+# waymark_folder(<name>
+#   SOURCES <files...>
+#   DEPENDS <folders before this one...>
+#   LIBRARIES <imported targets that the headers need...>
+#   PRIVATE_LIBRARIES <imported targets that only the sources need...>)
+# Makes the library waymark_<name>, known as waymark::<name>.
+function(waymark_folder name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
+  waymark_check_arguments("waymark_folder(${name})")
+  waymark_check_order(${name} "${arg_DEPENDS}")
+
+  set(include_dir "${PROJECT_BINARY_DIR}/include/${name}")
+  file(MAKE_DIRECTORY "${include_dir}/waymark")
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/waymark/${name}" "${include_dir}/waymark/${name}" SYMBOLIC)
+
+  set(target waymark_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(waymark::${name} ALIAS ${target})
+  target_include_directories(
+    ${target} PUBLIC $<BUILD_INTERFACE:${include_dir}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  list(TRANSFORM arg_DEPENDS PREPEND waymark:: OUTPUT_VARIABLE folders)
+  target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
+  target_precompile_headers(${target} REUSE_FROM waymark_precompiled)
+  waymark_warnings(${target})
+  waymark_record_reach(${name} "${arg_DEPENDS}")
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
+endfunction()
+
+# waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...>)
+# A program that lands at the top of the build tree; its target is waymark_program_<name>.
+function(waymark_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;LIBRARIES")
+  waymark_check_arguments("waymark_program(${name})")
+  set(target waymark_program_${name})
+  add_executable(${target} ${arg_SOURCES})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+  waymark_link(${target} "${arg_DEPENDS}" "${arg_LIBRARIES}")
+  set_property(GLOBAL APPEND PROPERTY WAYMARK_PROGRAMS ${target})
+endfunction()
+
+# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...>)
+# One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>.
+function(waymark_test folder)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FILES;LIBRARIES")
+  waymark_check_arguments("waymark_test(${folder})")
+  set(target waymark_${folder}_test)
+  add_executable(${target} ${arg_FILES})
+  waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
+  target_precompile_headers(${target} REUSE_FROM waymark_test_precompiled)
+  gtest_discover_tests(
+    ${target}
+    TEST_PREFIX "${folder}."
+    DISCOVERY_MODE PRE_TEST
+    PROPERTIES TIMEOUT 300 LABELS "${folder}")
+endfunction()
+
+# waymark_bench(<folder> FILES <files...> LIBRARIES <further targets...>): one Google Benchmark program.
+function(waymark_bench folder)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FILES;LIBRARIES")
+  waymark_check_arguments("waymark_bench(${folder})")
+  set(target waymark_${folder}_bench)
+  add_executable(${target} ${arg_FILES})
+  waymark_link(${target} "${folder}" "benchmark::benchmark_main;${arg_LIBRARIES}")
+endfunction()
+
+# Links a program with those of the named folders that exist, and with other targets.
+function(waymark_link target folders libraries)
+  foreach(folder IN LISTS folders)
+    if(TARGET waymark_${folder})
+      target_link_libraries(${target} PRIVATE waymark::${folder})
+    endif()
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${libraries})
+  waymark_warnings(${target})
+endfunction()
+
+macro(waymark_check_arguments who)
+  if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES MATCHES "SOURCES|FILES")
+    message(FATAL_ERROR "${who}: not understood: '${arg_UNPARSED_ARGUMENTS}'; SOURCES or FILES must name files")
+  endif()
+endmacro()
+
+function(waymark_check_order name depends)
+  if(NOT name IN_LIST WAYMARK_FOLDERS)
+    message(FATAL_ERROR "waymark_folder(${name}): add '${name}' to WAYMARK_FOLDERS in the top CMakeLists.txt")
+  endif()
+  foreach(dependency IN LISTS depends)
+    if(NOT TARGET waymark_${dependency})
+      message(FATAL_ERROR "waymark_folder(${name}): DEPENDS on '${dependency}', which is no folder before '${name}'. "
+                          "A folder depends only on folders before it: ${WAYMARK_FOLDERS}")
+    endif()
+  endforeach()
+endfunction()
+
+# Keeps the folders that <name> can include (itself and all that it depends on) as WAYMARK_REACH of its target.
+function(waymark_record_reach name depends)
+  set(reach ${name})
+  foreach(dependency IN LISTS depends)
+    get_target_property(further waymark_${dependency} WAYMARK_REACH)
+    list(APPEND reach ${further})
+  endforeach()
+  list(REMOVE_DUPLICATES reach)
+  set_target_properties(waymark_${name} PROPERTIES WAYMARK_REACH "${reach}")
+endfunction()

@@ -1,0 +1,48 @@
+# Build options and the compiler settings that hold for every target.
+
+option(WAYMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+option(WAYMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(WAYMARK_BUILD_BENCH "Build the micro-benchmarks" OFF)
+option(WAYMARK_BUILD_EXAMPLES "Test that the examples build and run against the installed library" ON)
+option(WAYMARK_COVERAGE "Instrument for coverage" OFF)
+set(WAYMARK_SANITIZE "" CACHE STRING "Sanitizers, for example \"address;undefined\" or \"thread\"")
+set(WAYMARK_DATA_DIR "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH
+    "Recordings that tests look for; the environment variable of the same name wins at run time")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# The compiler must not fuse a*b+c where the machine can: the same input gives the same bits everywhere.
+add_compile_options(-ffp-contract=off)
+
+if(WAYMARK_SANITIZE)
+  list(JOIN WAYMARK_SANITIZE "," sanitizers)
+  add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${sanitizers})
+endif()
+if(WAYMARK_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+endif()
+
+find_program(WAYMARK_CCACHE ccache)
+mark_as_advanced(WAYMARK_CCACHE)
+if(WAYMARK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # Precompiled headers are only cached with this sloppiness.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${WAYMARK_CCACHE}")
+endif()
+
+# waymark_warnings(<target>): the warnings that all our own code is free of. A plain struct may be initialised by its first
+# or its named members only; the others have defaults. g++ 12 sees overlapping copies in "literal" + std::string (GCC bug
+# 105651).
+function(waymark_warnings target)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-missing-field-initializers -Wno-restrict
+                      $<$<BOOL:${WAYMARK_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Installs what is missing to build Waymark on Debian 12; --dev adds what tests and checks need. Quick, without root and
+# without network, when nothing is missing.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(
+  g++ cmake ninja-build pkg-config ccache
+  libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
+)
+dev_packages=(
+  libgtest-dev libgmock-dev libbenchmark-dev git
+  clang-format-14 clang-tidy-14 clangd-14 valgrind gcovr chromium fonts-dejavu-core
+)
+
+case "${1:-}" in
+  "") ;;
+  --dev) packages+=("${dev_packages[@]}") ;;
+  *) echo "usage: setup.sh [--dev]" >&2; exit 2 ;;
+esac
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  if [ "$status" != installed ]; then missing+=("$package"); fi
+done
+
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "setup: installing ${missing[*]}"
+  as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+# The lock file that node_modules was installed from is remembered inside it.
+installed_lock=web/node_modules/.installed-package-lock.json
+if [ -f web/package-lock.json ] && ! cmp -s web/package-lock.json "$installed_lock"; then
+  echo "setup: installing the node packages of web/"
+  npm ci --prefix web --no-audit --no-fund --loglevel=error
+  mkdir -p web/node_modules
+  cp web/package-lock.json "$installed_lock"
+fi
+echo "setup: complete"

@@ -1,0 +1,89 @@
+#include "waymark/core/parallel.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace waymark {
+namespace {
+
+class ThreadTeamOf : public testing::TestWithParam<int> {};
+
+TEST_P(ThreadTeamOf, RunsEveryBlockOnceWhateverTheirNumber) {
+  ThreadTeam team(GetParam());
+  EXPECT_EQ(team.size(), GetParam());
+  for (const int blocks : {0, 1, 2, 3, 7, 64, 1000}) {
+    std::vector<int> runs(static_cast<std::size_t>(blocks), 0);
+    team.run(blocks, [&](int block) { ++runs[static_cast<std::size_t>(block)]; });
+    EXPECT_EQ(runs, std::vector<int>(static_cast<std::size_t>(blocks), 1)) << blocks;
+  }
+}
+
+TEST_P(ThreadTeamOf, ServesTenThousandJobs) {
+  ThreadTeam team(GetParam());
+  std::vector<int> runs(5, 0);
+  for (int job = 0; job < 10000; ++job) {
+    team.run(5, [&runs](int block) { ++runs[static_cast<std::size_t>(block)]; });
+    ASSERT_EQ(runs, std::vector<int>(5, job + 1)) << "not all blocks were done when run() returned";
+  }
+}
+
+TEST_P(ThreadTeamOf, GivesTheSameBitsForTheSameBlocks) {
+  std::vector<double> sums(37);
+  ThreadTeam team(GetParam());
+  team.run(37, [&](int block) {
+    double sum = 0.0;
+    for (int i = 1; i < 1000; ++i) sum += std::sin(block * 0.1 + i);
+    sums[static_cast<std::size_t>(block)] = sum;
+  });
+  for (int block = 0; block < 37; ++block) {
+    double sum = 0.0;
+    for (int i = 1; i < 1000; ++i) sum += std::sin(block * 0.1 + i);
+    EXPECT_EQ(sums[static_cast<std::size_t>(block)], sum);
+  }
+}
+
+TEST_P(ThreadTeamOf, TakesAConstantJobAndOneWithState) {
+  ThreadTeam team(GetParam());
+  std::atomic<int> total = 0;
+  const auto constant = [&total](int block) { total += block; };
+  team.run(10, constant);
+  EXPECT_EQ(total, 45);
+  struct Counter {
+    std::atomic<int> calls = 0;
+    void operator()(int) { ++calls; }
+  } counter;
+  team.run(10, counter);
+  EXPECT_EQ(counter.calls, 10) << "the caller's own object is called, not a copy";
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ThreadTeamOf, testing::Values(1, 2, 3, 8));
+
+TEST(ThreadTeam, UsesItsThreads) {
+  // Two blocks that wait for each other can only end on two threads.
+  ThreadTeam team(2);
+  std::atomic<int> arrived = 0;
+  team.run(2, [&](int) {
+    ++arrived;
+    while (arrived < 2) std::this_thread::yield();
+  });
+  EXPECT_EQ(arrived, 2);
+}
+
+TEST(ThreadTeam, OfOneRunsOnTheCallersThreadInOrder) {
+  ThreadTeam team(1);
+  std::vector<int> order;
+  team.run(5, [&](int block) { order.push_back(block); });
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(ThreadTeam, EndsWithoutEverHavingWorked) {
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(ThreadTeam(3).size(), 3);
+}
+
+}  // namespace
+}  // namespace waymark

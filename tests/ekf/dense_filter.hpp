@@ -1,0 +1,134 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "waymark/ekf/state.hpp"
+
+namespace waymark::test {
+
+/// EKF-SLAM as the textbook writes it, in long double and with dense matrices: what the fast state is held against.
+class DenseFilter {
+ public:
+  using Scalar = long double;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  DenseFilter(int dimension, ekf::Consistency consistency)
+      : dimension_(dimension), consistency_(consistency), x_(Vector::Zero(3)), P_(Matrix::Zero(3, 3)), linearized_(Vector::Zero(3)) {}
+
+  void predict(const Motion& motion) {
+    const Vector base = consistency_ == ekf::Consistency::kFej ? linearized_ : Vector(x_.head(3));
+    const Scalar c = std::cos(x_[2]);
+    const Scalar s = std::sin(x_[2]);
+    const Scalar dx = motion.increment.x_m;
+    const Scalar dy = motion.increment.y_m;
+    x_[0] += c * dx - s * dy;
+    x_[1] += s * dx + c * dy;
+    x_[2] = wrap(x_[2] + Scalar(motion.increment.theta_rad));
+    Matrix F = Matrix::Identity(size(), size());
+    F(0, 2) = -(x_[1] - base[1]);
+    F(1, 2) = x_[0] - base[0];
+    Matrix G = Matrix::Zero(size(), 3);
+    G(0, 0) = G(1, 1) = std::cos(base[2]);
+    G(1, 0) = std::sin(base[2]);
+    G(0, 1) = -G(1, 0);
+    G(2, 2) = 1;
+    P_ = F * P_ * F.transpose() + G * motion.covariance.cast<Scalar>() * G.transpose();
+    linearized_ = x_.head(3);
+  }
+
+  void update(std::span<const ekf::Sighting> sightings) {
+    int rows = 0;
+    for (const auto& s : sightings) rows += s.rows;
+    Matrix H = Matrix::Zero(rows, size());
+    Matrix R = Matrix::Zero(rows, rows);
+    Vector nu(rows);
+    int row = 0;
+    for (const auto& s : sightings) {
+      H.block(row, 0, s.rows, 3) = s.H_pose.topRows(s.rows).cast<Scalar>();
+      H.block(row, 3 + dimension_ * s.landmark, s.rows, dimension_) =
+          s.H_landmark.topLeftCorner(s.rows, dimension_).cast<Scalar>();
+      R.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows).cast<Scalar>();
+      nu.segment(row, s.rows) = s.nu.head(s.rows).cast<Scalar>();
+      row += s.rows;
+    }
+    const Matrix S = H * P_ * H.transpose() + R;
+    const Matrix K = S.llt().solve(H * P_).transpose();
+    const Vector dx = K * nu;
+    const Matrix I_KH = Matrix::Identity(size(), size()) - K * H;
+    P_ = (I_KH * P_ * I_KH.transpose() + K * R * K.transpose()).eval();  // Joseph's form
+    consistency_ == ekf::Consistency::kInvariant ? move_invariantly(dx) : move(dx);
+  }
+
+  void add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+    const int n = size();
+    const Matrix G = G_pose.topRows(dimension_).cast<Scalar>();
+    Matrix grown(n + dimension_, n + dimension_);
+    grown.topLeftCorner(n, n) = P_;
+    grown.bottomLeftCorner(dimension_, n) = G * P_.topRows(3);
+    grown.topRightCorner(n, dimension_) = grown.bottomLeftCorner(dimension_, n).transpose();
+    grown.bottomRightCorner(dimension_, dimension_) =
+        G * P_.topLeftCorner(3, 3) * G.transpose() + noise.topLeftCorner(dimension_, dimension_).cast<Scalar>();
+    P_ = grown;
+    x_.conservativeResize(n + dimension_);
+    x_.tail(dimension_) = position.head(dimension_).cast<Scalar>();
+  }
+
+  /// Marginalises a landmark out; the last one takes its index.
+  void remove(int index) {
+    const int to = 3 + dimension_ * index;
+    const int from = size() - dimension_;
+    Eigen::PermutationMatrix<Eigen::Dynamic> swap(size());
+    swap.setIdentity();
+    for (int a = 0; a < dimension_ && to != from; ++a) std::swap(swap.indices()[to + a], swap.indices()[from + a]);
+    P_ = (swap * P_ * swap.transpose()).eval().topLeftCorner(from, from).eval();
+    x_ = (swap * x_).eval().head(from).eval();
+  }
+
+  [[nodiscard]] int size() const { return static_cast<int>(x_.size()); }
+  [[nodiscard]] Eigen::VectorXd mean() const { return x_.cast<double>(); }
+  [[nodiscard]] Eigen::MatrixXd covariance() const { return P_.cast<double>(); }
+
+ private:
+  static Scalar wrap(Scalar a) { return std::remainder(a, 2 * Scalar(3.14159265358979323846264338327950288L)); }
+
+  void move(const Vector& dx) {
+    x_ += dx;
+    x_[2] = wrap(x_[2]);
+    if (consistency_ == ekf::Consistency::kStandard) linearized_ = x_.head(3);
+  }
+
+  /// The right-invariant filter in its native words: every point q moves as the group does,
+  /// q+ = R(a) q + V(a) (dq - a J q), and the covariance is sheared along d = J (q+ - q).
+  void move_invariantly(const Vector& dx) {
+    const Scalar a = dx[2];
+    Eigen::Matrix<Scalar, 2, 2> R{{std::cos(a), -std::sin(a)}, {std::sin(a), std::cos(a)}};
+    Eigen::Matrix<Scalar, 2, 2> J{{0, -1}, {1, 0}};
+    Eigen::Matrix<Scalar, 2, 2> V = Eigen::Matrix<Scalar, 2, 2>::Identity();
+    if (a != 0) V << std::sin(a) / a, -(1 - std::cos(a)) / a, (1 - std::cos(a)) / a, std::sin(a) / a;
+    Vector d = Vector::Zero(size());
+    for (int at = 0; at < size(); at = at == 0 ? 3 : at + dimension_) {
+      const Eigen::Matrix<Scalar, 2, 1> q = x_.segment(at, 2);
+      const Eigen::Matrix<Scalar, 2, 1> moved = R * q + V * (Eigen::Matrix<Scalar, 2, 1>(dx.segment(at, 2)) - a * J * q);
+      d.segment(at, 2) = J * (moved - q);
+      x_.segment(at, 2) = moved;
+      if (at > 0 && dimension_ == 3) x_[at + 2] += dx[at + 2];
+    }
+    x_[2] = wrap(x_[2] + a);
+    const Vector c = P_.col(2);
+    P_ += d * c.transpose() + c * d.transpose() + c[2] * d * d.transpose();
+    linearized_ = x_.head(3);
+  }
+
+  int dimension_;
+  ekf::Consistency consistency_;
+  Vector x_;
+  Matrix P_;
+  Vector linearized_;
+};
+
+}  // namespace waymark::test

@@ -1,0 +1,159 @@
+#include "waymark/ekf/ekf_slam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "support/allocation_counter.hpp"
+#include "waymark/core/random.hpp"
+#include "waymark/models/observation_models.hpp"
+
+namespace waymark {
+namespace {
+
+constexpr double kRangeSigma_m = 0.05;
+constexpr double kBearingSigma_rad = 0.02;
+
+/// A robot on a circle among eight landmarks that it sees one and all, with noise.
+class CircleWorld {
+ public:
+  explicit CircleWorld(std::uint64_t seed) : random_(seed, StreamPurpose::kSimulation) {
+    for (int i = 0; i < 8; ++i) landmarks_.emplace_back(6.0 * std::cos(i * kPi / 4.0) + 1.0, 6.0 * std::sin(i * kPi / 4.0) + 3.0);
+  }
+
+  Motion move() {
+    const Eigen::Vector3d sigma(0.01, 0.005, 0.01);
+    const Pose2 step{0.1, 0.0, 0.03};
+    truth_ = truth_ * Pose2{step.x_m + sigma[0] * random_.normal(), sigma[1] * random_.normal(), step.theta_rad + sigma[2] * random_.normal()};
+    return {step, sigma.cwiseAbs2().asDiagonal()};
+  }
+
+  std::vector<Observation> look() {
+    std::vector<Observation> scan;
+    for (int i = 0; i < 8; ++i) scan.push_back(sight(i));
+    return scan;
+  }
+
+  Observation sight(int landmark) {
+    const auto z = RangeBearingModel::linearize(truth_, mount_, landmarks_[static_cast<std::size_t>(landmark)]).predicted;
+    const RangeBearing noisy{z[0] + kRangeSigma_m * random_.normal(), wrap_angle(z[1] + kBearingSigma_rad * random_.normal())};
+    const Eigen::Vector2d variance(kRangeSigma_m * kRangeSigma_m, kBearingSigma_rad * kBearingSigma_rad);
+    return {LandmarkId{LandmarkId::Family::kMarker, landmark}, noisy, Eigen::Matrix2d(variance.asDiagonal())};
+  }
+
+  [[nodiscard]] const Pose2& truth() const { return truth_; }
+  [[nodiscard]] const Pose2& mount() const { return mount_; }
+
+ private:
+  RandomStream random_;
+  std::vector<Eigen::Vector2d> landmarks_;
+  Pose2 truth_;
+  Pose2 mount_{0.2, -0.1, 0.3};
+};
+
+EkfSlam make(const CircleWorld& world, int capacity = 20) {
+  return EkfSlam({ekf::Consistency::kInvariant, capacity}, {}, world.mount());
+}
+
+void drive(EkfSlam& filter, CircleWorld& world, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    filter.predict(world.move());
+    filter.correct(world.look());
+  }
+}
+
+TEST(EkfSlam, FollowsTheTruthWithinItsOwnUncertainty) {
+  double nees = 0.0;
+  constexpr int kRuns = 60;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    EkfSlam filter = make(world);
+    drive(filter, world, 200);
+    const auto pose = filter.pose();
+    nees += *mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance);
+  }
+  // 99.9 % band of a mean of 60 chi-square variables with 3 degrees of freedom.
+  EXPECT_GT(nees / kRuns, 2.05);
+  EXPECT_LT(nees / kRuns, 4.12);
+}
+
+TEST(EkfSlam, AddsEachLandmarkOnceAndCountsItsSightings) {
+  CircleWorld world(1);
+  EkfSlam filter = make(world);
+  EXPECT_EQ(filter.correct(world.look()).count(Outcome::kAdded), 8);
+  EXPECT_EQ(filter.correct(world.look()).count(Outcome::kMatched), 8);
+  const auto landmarks = filter.snapshot().landmarks;
+  ASSERT_EQ(landmarks.size(), 8U);
+  for (const auto& landmark : landmarks) EXPECT_EQ(landmark.observations, 2);
+}
+
+TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
+  CircleWorld world(2);
+  EkfSlam filter = make(world);
+  drive(filter, world, 50);
+  const auto before = filter.pose();
+  Observation misread = world.sight(0);
+  misread.id->number = 4;
+  const auto& correction = filter.correct({&misread, 1});
+  EXPECT_EQ(correction.innovations[0].outcome, Outcome::kGated);
+  EXPECT_GT(correction.innovations[0].nis, correction.innovations[0].gate);
+  EXPECT_EQ(filter.pose().T_world_robot, before.T_world_robot);
+}
+
+TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
+  CircleWorld world(3);
+  EkfSlam filter = make(world, 8);
+  drive(filter, world, 10);
+  std::vector<Observation> scan(6, world.sight(0));
+  scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
+  scan[1].id.reset();
+  scan[2].value = Bearing{0.1};
+  scan[3].covariance.reset();
+  scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
+  scan.push_back(world.sight(0));
+  const auto& correction = filter.correct(scan);
+  const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kUnusable,
+                                      Outcome::kMatched,  Outcome::kMapFull,      Outcome::kDuplicate};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(correction.innovations[i].outcome, expected[i]) << i;
+  EXPECT_TRUE(filter.pose().covariance.allFinite());
+}
+
+TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
+  EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, Pose2{});
+  std::vector<Observation> scan;
+  for (int i = 0; i < 80; ++i)
+    scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i}, Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())});
+  EXPECT_EQ(filter.correct(scan).count(Outcome::kAdded), 80);
+  filter.predict({{0.01, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
+  EXPECT_EQ(filter.correct(scan).count(Outcome::kMatched), 80);
+}
+
+TEST(EkfSlam, ASteadyStateStepAllocatesNothing) {
+  CircleWorld world(4);
+  EkfSlam filter = make(world);
+  drive(filter, world, 5);
+  const Motion motion = world.move();
+  const auto scan = world.look();
+  const test::AllocationCount count;
+  for (int i = 0; i < 10; ++i) {
+    filter.predict(motion);
+    filter.correct(scan);
+    (void)filter.pose();
+  }
+  EXPECT_EQ(count.allocations(), 0);
+}
+
+TEST(EkfSlam, SavesTheWholeBelief) {
+  CircleWorld world(5);
+  EkfSlam filter = make(world);
+  drive(filter, world, 20);
+  const MapState map = filter.save();
+  ASSERT_EQ(map.ids.size(), 8U);
+  EXPECT_EQ(map.landmarks.size(), 16);
+  EXPECT_EQ(map.covariance, filter.state().covariance());
+  EXPECT_TRUE(is_covariance(map.covariance));
+}
+
+}  // namespace
+}  // namespace waymark

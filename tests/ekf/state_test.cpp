@@ -1,0 +1,182 @@
+#include "waymark/ekf/state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "dense_filter.hpp"
+#include "support/matrix_near.hpp"
+#include "support/poses.hpp"
+#include "waymark/core/gaussian.hpp"
+#include "waymark/core/random.hpp"
+
+namespace waymark::ekf {
+namespace {
+
+using test::DenseFilter;
+using test::matrix_near;
+
+Motion random_motion(RandomStream& random) {
+  const Pose2 increment{random.uniform(0.0, 0.3), random.uniform(-0.02, 0.02), random.uniform(-0.2, 0.2)};
+  return {increment, test::random_covariance<3>(random, 1e-4)};
+}
+
+/// A sighting as a filter would linearise it, with Jacobians of no particular sensor.
+Sighting random_sighting(RandomStream& random, int landmark, int dimension) {
+  Sighting s;
+  s.landmark = landmark;
+  s.rows = random.uniform() < 0.3 ? 1 : 2;
+  s.nu = Eigen::Vector2d(random.normal(), random.normal()) * 0.05;
+  for (auto& entry : s.H_pose.reshaped()) entry = random.normal();
+  for (auto& entry : s.H_landmark.reshaped()) entry = random.normal();
+  if (dimension == 2) s.H_landmark.col(2).setZero();
+  s.R = test::random_covariance<2>(random, 0.05);
+  return s;
+}
+
+struct Case {
+  int dimension;
+  Consistency consistency;
+};
+
+class StateAgainstDenseFilter : public testing::TestWithParam<Case> {
+ protected:
+  StateAgainstDenseFilter()
+      : state_(GetParam().dimension, kCapacity, GetParam().consistency), dense_(GetParam().dimension, GetParam().consistency) {}
+
+  void step() {
+    const double what = random_.uniform();
+    if (what < 0.45) {
+      const Motion motion = random_motion(random_);
+      state_.predict(motion);
+      dense_.predict(motion);
+    } else if (what < 0.6 && state_.landmarks() < kCapacity) {
+      add();
+    } else if (what < 0.65 && state_.landmarks() > 0) {
+      const int index = any_landmark();
+      state_.remove(index);
+      dense_.remove(index);
+    } else if (state_.landmarks() > 0) {
+      update();
+    }
+  }
+
+  void expect_equal(double tolerance) {
+    const Eigen::VectorXd x = state_.mean();
+    ASSERT_EQ(x.size(), dense_.mean().size());
+    Eigen::VectorXd error = x - dense_.mean();
+    error[2] = wrap_angle(error[2]);
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), tolerance);
+    const Eigen::MatrixXd P = dense_.covariance();
+    EXPECT_TRUE(matrix_near(state_.covariance(), P, tolerance * std::max(1.0, P.cwiseAbs().maxCoeff())));
+  }
+
+  static constexpr int kCapacity = 9;
+  State state_;
+  DenseFilter dense_;
+  RandomStream random_{7, StreamPurpose::kWorld};
+
+ private:
+  [[nodiscard]] int any_landmark() { return static_cast<int>(random_.uniform() * state_.landmarks()); }
+
+  void add() {
+    const Eigen::Vector3d position(random_.uniform(-9.0, 9.0), random_.uniform(-9.0, 9.0), random_.uniform(-1.0, 1.0));
+    Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
+    for (auto& entry : G.reshaped()) entry += 0.3 * random_.normal();
+    const Eigen::Matrix3d noise = test::random_covariance<3>(random_, 0.01);
+    state_.add(position, G, noise);
+    dense_.add(position, G, noise);
+  }
+
+  void update() {
+    std::vector<Sighting> sightings;
+    for (int i = 0; i < 1 + static_cast<int>(random_.uniform() * 4); ++i)
+      sightings.push_back(random_sighting(random_, any_landmark(), GetParam().dimension));
+    ASSERT_TRUE(state_.update(sightings));
+    dense_.update(sightings);
+  }
+};
+
+// The long-double filter is exact for this purpose; what is left is the rounding of double arithmetic that piles up over
+// the operations. Its covariance stays below about 10 in every entry.
+TEST_P(StateAgainstDenseFilter, StaysEqualOverManyRandomOperations) {
+  for (int i = 0; i < 3000; ++i) {
+    step();
+    if (i % 100 == 99) expect_equal(1e-8);
+    if (HasFatalFailure() || HasNonfatalFailure()) return;
+  }
+}
+
+TEST_P(StateAgainstDenseFilter, CovarianceStaysSymmetricAndPositive) {
+  for (int i = 0; i < 2000; ++i) step();
+  EXPECT_TRUE(is_covariance(state_.covariance()));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllModes, StateAgainstDenseFilter,
+                         testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant}, Case{2, Consistency::kFej},
+                                         Case{3, Consistency::kStandard}, Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej}));
+
+State small_map(RandomStream& random, int landmarks, int threads = 1) {
+  State state(2, landmarks, Consistency::kInvariant, threads);
+  state.predict({{0.1, 0.0, 0.1}, 1e-3 * Eigen::Matrix3d::Identity()});
+  for (int i = 0; i < landmarks; ++i) {
+    const Eigen::Vector3d position(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), 0.0);
+    Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
+    G.block<2, 1>(0, 2) = perpendicular(position.head<2>());
+    state.add(position, G, test::random_covariance<3>(random, 0.01));
+  }
+  return state;
+}
+
+TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
+  RandomStream random(3, StreamPurpose::kWorld);
+  State state = small_map(random, 5);
+  state.predict(random_motion(random));  // leaves a pending prediction of the robot's rows
+  const Eigen::MatrixXd P = state.covariance();
+  EXPECT_TRUE(matrix_near(state.pose().covariance, P.topLeftCorner<3, 3>(), 0.0));
+  for (int i = 0; i < 5; ++i)
+    EXPECT_TRUE(matrix_near(state.landmark_covariance(i).topLeftCorner<2, 2>(), P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
+}
+
+TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
+  RandomStream random(4, StreamPurpose::kWorld);
+  State state = small_map(random, 5);
+  state.predict(random_motion(random));
+  const Sighting s = random_sighting(random, 3, 2);
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, 13);
+  H.leftCols<3>() = s.H_pose;
+  H.middleCols<2>(9) = s.H_landmark.leftCols<2>();
+  const Eigen::Matrix2d S = H * state.covariance() * H.transpose() + s.R;
+  EXPECT_TRUE(matrix_near(state.innovation_covariance(s), S, 1e-14));
+}
+
+TEST(State, RefusesAnInnovationCovarianceThatIsNotPositive) {
+  RandomStream random(5, StreamPurpose::kWorld);
+  State state = small_map(random, 3);
+  const Eigen::VectorXd mean = state.mean();
+  const Eigen::MatrixXd covariance = state.covariance();
+  for (const double r : {-100.0, std::nan("")}) {
+    Sighting s = random_sighting(random, 1, 2);
+    s.R = r * Eigen::Matrix2d::Identity();
+    EXPECT_FALSE(state.update({&s, 1}));
+    EXPECT_EQ(state.mean(), mean);
+    EXPECT_EQ(state.covariance(), covariance);
+  }
+}
+
+TEST(State, TwoThreadsGiveTheSameBits) {
+  std::vector<Eigen::MatrixXd> results;
+  for (const int threads : {1, 2}) {
+    RandomStream random(6, StreamPurpose::kWorld);
+    State state = small_map(random, 500, threads);  // n = 1003: large enough to be split
+    for (int i = 0; i < 3; ++i) {
+      const std::vector<Sighting> sightings{random_sighting(random, 5, 2), random_sighting(random, 400, 2)};
+      ASSERT_TRUE(state.update(sightings));
+    }
+    results.push_back(state.covariance());
+  }
+  EXPECT_TRUE(results[0] == results[1]);
+}
+
+}  // namespace
+}  // namespace waymark::ekf

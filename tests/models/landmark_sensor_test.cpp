@@ -1,0 +1,86 @@
+#include "waymark/models/landmark_sensor.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "support/matrix_near.hpp"
+
+namespace waymark {
+namespace {
+
+using test::matrix_near;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+LandmarkSensor example_sensor() {
+  LandmarkSensor sensor;
+  sensor.range_sigma_m = 0.1;
+  sensor.range_sigma_ratio = 0.02;
+  sensor.bearing_sigma_deg = 2.0;
+  sensor.min_range_m = 0.5;
+  sensor.max_range_m = 8.0;
+  return sensor;
+}
+
+TEST(LandmarkSensor, SitsWhereItsMountSays) {
+  LandmarkSensor sensor;
+  sensor.x_m = 0.2;
+  sensor.y_m = -0.1;
+  sensor.yaw_deg = 90.0;
+  EXPECT_EQ(sensor.T_robot_sensor(), (Pose2{0.2, -0.1, 0.5 * kPi}));
+}
+
+TEST(NoiseCovariance, GrowsWithRangeAndFollowsTheLayoutOfObservations) {
+  const LandmarkSensor sensor = example_sensor();
+  const double range_var = 0.2 * 0.2;  // 0.1 + 0.02 * 5
+  const double bearing_var = to_radians(2.0) * to_radians(2.0);
+  EXPECT_TRUE(matrix_near(noise_covariance(sensor, RangeBearing{5.0, 1.0}),
+                          Eigen::Matrix2d{{range_var, 0.0}, {0.0, bearing_var}}, 1e-15));
+  EXPECT_TRUE(matrix_near(noise_covariance(sensor, Range{5.0}), Eigen::Matrix2d{{range_var, 0.0}, {0.0, 0.0}},
+                          1e-15));
+  EXPECT_TRUE(matrix_near(noise_covariance(sensor, Bearing{1.0}),
+                          Eigen::Matrix2d{{bearing_var, 0.0}, {0.0, 0.0}}, 1e-15));
+  EXPECT_TRUE(matrix_near(noise_covariance(sensor, Pixel{1.0, 2.0}), Eigen::Matrix2d::Zero(), 0.0));
+}
+
+TEST(IsUsable, TakesRangesUpToTheLimitsThemselves) {
+  const LandmarkSensor sensor = example_sensor();
+  for (const double range_m : {0.5, 3.0, 8.0}) {
+    EXPECT_TRUE(is_usable(sensor, Range{range_m})) << range_m;
+    EXPECT_TRUE(is_usable(sensor, RangeBearing{range_m, -3.0})) << range_m;
+  }
+  for (const double range_m : {0.499, 8.001, 0.0, -1.0, kNaN, kInfinity}) {
+    EXPECT_FALSE(is_usable(sensor, Range{range_m})) << range_m;
+    EXPECT_FALSE(is_usable(sensor, RangeBearing{range_m, 0.0})) << range_m;
+  }
+}
+
+TEST(IsUsable, RefusesBearingsThatAreNotFinite) {
+  const LandmarkSensor sensor = example_sensor();
+  EXPECT_TRUE(is_usable(sensor, Bearing{0.3}));
+  for (const double bearing_rad : {kNaN, kInfinity, -kInfinity}) {
+    EXPECT_FALSE(is_usable(sensor, Bearing{bearing_rad}));
+    EXPECT_FALSE(is_usable(sensor, RangeBearing{3.0, bearing_rad}));
+  }
+}
+
+TEST(IsUsable, RefusesARangeOfZeroAndWhatItCannotMeasure) {
+  EXPECT_FALSE(is_usable(LandmarkSensor{}, Range{0.0}));
+  EXPECT_FALSE(is_usable(LandmarkSensor{}, Pixel{10.0, 10.0}));
+}
+
+TEST(LandmarkSensor, DescribesItsKeys) {
+  LandmarkSensor sensor;
+  Schema schema;
+  describe(schema, sensor);
+  ASSERT_TRUE(schema.load_text(schema.to_yaml(), "defaults").ok()) << "a default is beyond its own limits";
+  for (const auto& key : schema.keys()) EXPECT_TRUE(key.starts_with("sensor.")) << key;
+  ASSERT_TRUE(schema.set("sensor.yaw_deg", "-90", "test").ok());
+  EXPECT_EQ(sensor.yaw_deg, -90.0);
+  EXPECT_FALSE(schema.set("sensor.range_sigma_m", "0", "test").ok()) << "S would not be positive definite";
+}
+
+}  // namespace
+}  // namespace waymark

@@ -1,0 +1,89 @@
+#include "waymark/sim/options.hpp"
+
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace waymark::sim {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(SimOptions, EveryScenarioIsValidAndFoundByName) {
+  for (const std::string& name : scenario_names()) {
+    const auto options = scenario(name);
+    ASSERT_TRUE(options.ok()) << name;
+    EXPECT_TRUE(validate(*options).ok()) << name;
+  }
+}
+
+TEST(SimOptions, ScenariosDriveDifferentPaths) {
+  EXPECT_EQ(scenario("l-shape")->path.shape, Shape::kLShape);
+  EXPECT_EQ(scenario("figure-eight")->path.shape, Shape::kFigureEight);
+  EXPECT_EQ(scenario("random")->path.shape, Shape::kRandom);
+  EXPECT_EQ(scenario("study")->path.laps, 2);
+}
+
+TEST(SimOptions, UnknownScenarioNamesTheNearest) {
+  const auto options = scenario("sqare");
+  ASSERT_FALSE(options.ok());
+  EXPECT_EQ(options.error().kind, Error::Kind::kBadInput);
+  EXPECT_THAT(options.error().message, HasSubstr("did you mean 'square'?"));
+  EXPECT_THAT(options.error().message, HasSubstr("figure-eight"));
+}
+
+TEST(SimOptions, KeysSetTheirFields) {
+  SimOptions options;
+  Schema schema;
+  describe(schema, options);
+  ASSERT_TRUE(schema.set("sim.path", "figure-eight", "test").ok());
+  ASSERT_TRUE(schema.set("sim.landmarks", "7", "test").ok());
+  ASSERT_TRUE(schema.set("sim.odometry", "pose", "test").ok());
+  ASSERT_TRUE(schema.set("sim.observe", "bearing", "test").ok());
+  ASSERT_TRUE(schema.set("sim.identities", "false", "test").ok());
+  ASSERT_TRUE(schema.set("sim.truth_rate_hz", "0", "test").ok());
+  EXPECT_EQ(options.path.shape, Shape::kFigureEight);
+  EXPECT_EQ(options.world.landmarks, 7);
+  EXPECT_EQ(options.wheels.odometry, OdometryKind::kPose);
+  EXPECT_EQ(options.sensor.observe, Observe::kBearing);
+  EXPECT_FALSE(options.sensor.identities);
+  EXPECT_EQ(options.truth.rate_hz, 0.0);
+}
+
+struct BadOptions {
+  const char* key;
+  std::function<void(SimOptions&)> spoil;
+};
+
+class RefusedOptions : public testing::TestWithParam<BadOptions> {};
+
+TEST_P(RefusedOptions, AreNamedByTheirKey) {
+  SimOptions options;
+  GetParam().spoil(options);
+  const auto valid = validate(options);
+  ASSERT_FALSE(valid.ok());
+  EXPECT_THAT(valid.error().message, HasSubstr(GetParam().key));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RefusedOptions,
+    testing::Values(
+        BadOptions{"sim.side_m", [](SimOptions& o) { o.path.side_m = -6.0; }},
+        BadOptions{"sim.side_m",
+                   [](SimOptions& o) { o.path.side_m = std::numeric_limits<double>::quiet_NaN(); }},
+        BadOptions{"sim.speed_mps", [](SimOptions& o) { o.path.speed_mps = 0.0; }},
+        BadOptions{"sim.laps", [](SimOptions& o) { o.path.laps = 0; }},
+        BadOptions{"sim.landmarks", [](SimOptions& o) { o.world.landmarks = -1; }},
+        BadOptions{"sim.landmark_max_offset_m",
+                   [](SimOptions& o) { o.world.min_offset_m = o.world.max_offset_m; }},
+        BadOptions{"sim.odometry_rate_hz", [](SimOptions& o) { o.wheels.rate_hz = 0.0; }},
+        BadOptions{"sim.wheel_var_m2_per_m", [](SimOptions& o) { o.wheels.var_m2_per_m = -1e-4; }},
+        BadOptions{"sim.sensor_rate_hz", [](SimOptions& o) { o.sensor.rate_hz = 0.0; }},
+        BadOptions{"sim.field_of_view_deg", [](SimOptions& o) { o.sensor.field_of_view_deg = 361.0; }},
+        BadOptions{"sim.range_max_m", [](SimOptions& o) { o.sensor.range_max_m = o.sensor.range_min_m; }},
+        BadOptions{"sim.drop_probability", [](SimOptions& o) { o.sensor.drop_probability = 1.5; }}));
+
+}  // namespace
+}  // namespace waymark::sim

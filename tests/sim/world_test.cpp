@@ -1,0 +1,61 @@
+#include "waymark/sim/world.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace waymark::sim {
+namespace {
+
+Path square() { return make_path({}, 1); }
+
+TEST(World, LandmarksKeepTheirDistanceFromThePath) {
+  const WorldOptions options{.landmarks = 200, .min_offset_m = 1.0, .max_offset_m = 2.5, .separation_m = 0.2};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (const TrueLandmark& landmark : place_landmarks(options, square(), seed)) {
+      const double offset_m = distance_m(square(), {landmark.x_m, landmark.y_m});
+      EXPECT_GE(offset_m, 1.0);
+      EXPECT_LE(offset_m, 2.5 + 1e-12);
+    }
+  }
+}
+
+TEST(World, LandmarksStandOnBothSides) {
+  int inside = 0;
+  for (const TrueLandmark& landmark : place_landmarks({}, square(), 1)) {
+    if (std::abs(landmark.x_m) < 3.0 && std::abs(landmark.y_m) < 3.0) ++inside;
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_LT(inside, 24);
+}
+
+TEST(World, LandmarksAreNumberedFromZero) {
+  const auto landmarks = place_landmarks({}, square(), 1);
+  ASSERT_EQ(landmarks.size(), 24u);
+  for (std::int32_t i = 0; i < 24; ++i) {
+    EXPECT_EQ(landmarks[static_cast<std::size_t>(i)].id, (LandmarkId{LandmarkId::Family::kMarker, i}));
+  }
+}
+
+TEST(World, LandmarksAreApart) {
+  const auto landmarks = place_landmarks({}, square(), 1);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(std::hypot(landmarks[i].x_m - landmarks[j].x_m, landmarks[i].y_m - landmarks[j].y_m), 0.5);
+    }
+  }
+}
+
+TEST(World, SeparationYieldsWhereThereIsNoRoom) {
+  const WorldOptions options{
+      .landmarks = 500, .min_offset_m = 1.0, .max_offset_m = 1.2, .separation_m = 100.0};
+  EXPECT_EQ(place_landmarks(options, square(), 1).size(), 500u);
+}
+
+TEST(World, FollowsItsSeed) {
+  EXPECT_EQ(place_landmarks({}, square(), 1)[3].x_m, place_landmarks({}, square(), 1)[3].x_m);
+  EXPECT_NE(place_landmarks({}, square(), 1)[3].x_m, place_landmarks({}, square(), 2)[3].x_m);
+}
+
+}  // namespace
+}  // namespace waymark::sim

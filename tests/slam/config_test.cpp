@@ -1,0 +1,82 @@
+#include "waymark/slam/config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+
+namespace waymark {
+namespace {
+
+TEST(Config, TheConfigInForceReadsBackAsItself) {
+  Config config;
+  Schema schema = describe(config);
+  ASSERT_TRUE(schema.set_assignment("sensor.bearing_sigma_deg=0.1234567890123", "test").ok());
+  ASSERT_TRUE(schema.set_assignment("ekf.consistency=fej", "test").ok());
+  const std::string yaml = schema.to_yaml();
+  Config again;
+  Schema schema_again = describe(again);
+  ASSERT_TRUE(schema_again.load_text(yaml, "yaml").ok());
+  EXPECT_EQ(again.sensor.bearing_sigma_deg, 0.1234567890123);
+  EXPECT_EQ(again.ekf.consistency, ekf::Consistency::kFej);
+  const auto values = [](const Schema& s) {
+    std::string all;
+    for (const auto& key : s.keys()) all += key + "=" + s.value(key) + "\n";
+    return all;
+  };
+  EXPECT_EQ(values(schema_again), values(schema));
+}
+
+TEST(Config, EveryKeyHasAUniqueName) {
+  Config config;
+  auto keys = describe(config).keys();
+  std::ranges::sort(keys);
+  EXPECT_EQ(std::ranges::adjacent_find(keys), keys.end());
+}
+
+TEST(Config, LaterSettingsWin) {
+  const auto file = std::filesystem::temp_directory_path() / "waymark_config_test.yaml";
+  std::ofstream(file) << "seed: 5\nthreads: 2\n";
+  const auto config = resolve_config({file, {"seed=6"}});
+  std::filesystem::remove(file);
+  ASSERT_TRUE(config.ok());
+  EXPECT_EQ(config->seed, 6U);
+  EXPECT_EQ(config->threads, 2);
+}
+
+TEST(Config, AMistypedKeyNamesTheNearest) {
+  const auto config = resolve_config({{}, {"ekf.consistancy=fej"}});
+  ASSERT_FALSE(config.ok());
+  EXPECT_NE(config.error().message.find("ekf.consistency"), std::string::npos) << config.error().message;
+  EXPECT_EQ(config.error().kind, Error::Kind::kBadInput);
+}
+
+TEST(Config, TheUserOutranksTheLogAndTheLogTheDefaults) {
+  const auto plain = open_input("sim:study", {});
+  ASSERT_TRUE(plain.ok());
+  EXPECT_EQ(plain->config.sensor.bearing_sigma_deg, 1.5);  // the study's sensor
+  const auto changed = open_input("sim:study", {{}, {"sensor.bearing_sigma_deg=3"}});
+  ASSERT_TRUE(changed.ok());
+  EXPECT_EQ(changed->config.sensor.bearing_sigma_deg, 3.0);
+}
+
+TEST(Config, AnUnknownScenarioNamesTheNearest) {
+  const auto opened = open_input("sim:sqare", {});
+  ASSERT_FALSE(opened.ok());
+  EXPECT_NE(opened.error().message.find("square"), std::string::npos) << opened.error().message;
+}
+
+TEST(Config, EveryShippedConfigIsValid) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WAYMARK_CONFIG_DIR)) {
+    const auto config = resolve_config({entry.path(), {}});
+    EXPECT_TRUE(config.ok()) << config.error().message;
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+}
+
+}  // namespace
+}  // namespace waymark

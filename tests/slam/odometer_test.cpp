@@ -1,0 +1,104 @@
+#include "waymark/slam/odometer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/matrix_near.hpp"
+#include "support/poses.hpp"
+
+namespace waymark {
+namespace {
+
+Stamp at(double seconds) { return stamp_from_seconds(seconds); }
+
+OdometryOptions wheels() {
+  OdometryOptions options;
+  options.wheels = {0.1, 0.1, 0.5};
+  return options;
+}
+
+Pose2 sum(const std::vector<Motion>& motions) {
+  Pose2 pose;
+  for (const auto& motion : motions) pose = pose * motion.increment;
+  return pose;
+}
+
+TEST(Odometer, StandsStillBeforeTheFirstReading) {
+  Odometer odometer(wheels(), 1.0);
+  EXPECT_TRUE(is_still(odometer.advance(at(3.0), nullptr)));
+}
+
+TEST(Odometer, HoldsTheLastVelocity) {
+  Odometer odometer({}, 10.0);
+  (void)odometer.advance(at(1.0), nullptr);
+  odometer.add({at(1.0), Velocity{0.5, 0.0}});
+  EXPECT_NEAR(odometer.advance(at(3.0), nullptr).increment.x_m, 1.0, 1e-12);
+}
+
+TEST(Odometer, StandsStillInAGapLongerThanTheHoldAndCountsIt) {
+  Odometer odometer({}, 2.0);
+  (void)odometer.advance(at(0.0), nullptr);
+  odometer.add({at(0.0), Velocity{1.0, 0.0}});
+  const std::vector<Motion> motions{odometer.advance(at(1.5), nullptr), odometer.advance(at(4.0), nullptr), odometer.advance(at(9.0), nullptr)};
+  EXPECT_NEAR(sum(motions).x_m, 2.0, 1e-12);
+  EXPECT_TRUE(is_still(motions[2]));
+  EXPECT_EQ(odometer.gaps(), 1);
+}
+
+TEST(Odometer, InterpolatesWheelAnglesUpToTheNextReading) {
+  Odometer odometer(wheels(), 1.0);
+  (void)odometer.advance(at(0.0), nullptr);
+  odometer.add({at(0.0), WheelAngles{5.0, 5.0}});
+  const Event next{at(1.0), WheelAngles{6.0, 6.0}};
+  EXPECT_NEAR(odometer.advance(at(0.25), &next).increment.x_m, 0.025, 1e-12);
+  EXPECT_NEAR(odometer.advance(at(1.0), &next).increment.x_m, 0.075, 1e-12);
+}
+
+TEST(Odometer, TheWholeWayIsTheSameWhereverItIsCut) {
+  const Event start{at(0.0), WheelAngles{0.0, 0.0}};
+  const Event end{at(2.0), WheelAngles{3.0, 5.0}};
+  std::vector<Pose2> poses;
+  for (const int cuts : {1, 7}) {
+    Odometer odometer(wheels(), 1.0);
+    (void)odometer.advance(at(0.0), nullptr);
+    odometer.add(start);
+    std::vector<Motion> motions;
+    for (int i = 1; i <= cuts; ++i) motions.push_back(odometer.advance(at(2.0 * i / cuts), &end));
+    poses.push_back(sum(motions));
+  }
+  EXPECT_TRUE(test::matrix_near(test::to_vector(poses[0]), test::to_vector(poses[1]), 1e-12));
+}
+
+TEST(Odometer, ExtrapolatesWheelsAndCorrectsItselfWhenTheReadingComes) {
+  Odometer odometer(wheels(), 1.0);
+  std::vector<Motion> motions{odometer.advance(at(0.0), nullptr)};
+  odometer.add({at(0.0), WheelAngles{0.0, 0.0}});
+  motions.push_back(odometer.advance(at(1.0), nullptr));
+  odometer.add({at(1.0), WheelAngles{2.0, 2.0}});
+  motions.push_back(odometer.advance(at(1.5), nullptr));
+  EXPECT_NEAR(sum(motions).x_m, 0.3, 1e-12);
+  const Event late{at(2.0), WheelAngles{2.0, 2.0}};  // it had stopped
+  motions.push_back(odometer.advance(at(2.0), &late));
+  EXPECT_NEAR(sum(motions).x_m, 0.2, 1e-12);
+}
+
+TEST(Odometer, FollowsDeadReckonedPosesFromWhereverTheyStart) {
+  Odometer odometer({}, 1.0);
+  const Pose2 T_odom_start{3.0, -2.0, 1.0};
+  const Pose2 step{0.5, 0.1, 0.2};
+  (void)odometer.advance(at(0.0), nullptr);
+  odometer.add({at(0.0), OdometryPose{T_odom_start}});
+  const Event next{at(1.0), OdometryPose{T_odom_start * step}};
+  EXPECT_TRUE(test::matrix_near(test::to_vector(odometer.advance(at(1.0), &next).increment), test::to_vector(step), 1e-12));
+}
+
+TEST(Odometer, RefusesASecondKind) {
+  Odometer odometer({}, 1.0);
+  (void)odometer.advance(at(0.0), nullptr);
+  EXPECT_TRUE(odometer.add({at(0.0), Velocity{1.0, 0.0}}));
+  EXPECT_FALSE(odometer.add({at(0.0), OdometryPose{}}));
+}
+
+}  // namespace
+}  // namespace waymark

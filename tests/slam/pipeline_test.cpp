@@ -1,0 +1,142 @@
+#include "waymark/slam/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "waymark/core/function_blocks.hpp"
+
+namespace waymark {
+namespace {
+
+Stamp at(double seconds) { return stamp_from_seconds(seconds); }
+
+/// Notes what the pipeline asks of a filter.
+class Recorder final : public Filter {
+ public:
+  void predict(const Motion& motion) override { pose_ = propagate(pose_, motion); }
+  const Correction& correct(std::span<const Observation> observations) override {
+    batches.emplace_back(observations.begin(), observations.end());
+    poses.push_back(pose_.T_world_robot);
+    return correction_;
+  }
+  [[nodiscard]] PoseEstimate pose() const override { return pose_; }
+  [[nodiscard]] Snapshot snapshot() const override { return {}; }
+  [[nodiscard]] MapState save() const override { return {}; }
+  [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
+
+  std::vector<std::vector<Observation>> batches;
+  std::vector<Pose2> poses;  ///< where each batch was seen from
+
+ private:
+  PoseEstimate pose_;
+  Correction correction_;
+  FunctionBlocks blocks_{};
+};
+
+struct Fixture {
+  explicit Fixture(PipelineOptions options = {}, LandmarkSensor sensor = {}, Observe observe = Observe::kRangeBearing)
+      : pipeline(filter, options, {}, sensor, observe, [this](const Step& step) { stamps.push_back(step.stamp); }) {}
+
+  void push(std::vector<Event> events) {
+    for (auto& event : events) pipeline.push(std::move(event));
+    pipeline.finish();
+  }
+
+  Recorder filter;
+  std::vector<Stamp> stamps;
+  Pipeline pipeline;
+};
+
+Observation sighting(int number, Measurement value = RangeBearing{2.0, 0.5}) {
+  return {LandmarkId{LandmarkId::Family::kMarker, number}, value, std::nullopt};
+}
+
+Event seen(double seconds, std::vector<Observation> observations) { return {at(seconds), Observations(std::move(observations))}; }
+Event speed(double seconds, double v_mps) { return {at(seconds), Velocity{v_mps, 0.0}}; }
+
+TEST(Pipeline, PutsLateEventsInTheirPlace) {
+  Fixture f;
+  f.push({speed(0.0, 1.0), speed(1.0, 0.0), seen(0.6, {sighting(1)}), speed(2.0, 0.0)});
+  ASSERT_EQ(f.filter.poses.size(), 1U);
+  EXPECT_NEAR(f.filter.poses[0].x_m, 0.6, 1e-9);
+  EXPECT_TRUE(std::ranges::is_sorted(f.stamps));
+}
+
+TEST(Pipeline, DropsAndCountsWhatComesTooLate) {
+  Fixture f({.reorder_window_s = 0.2});
+  f.push({speed(0.0, 1.0), speed(1.0, 0.0), speed(2.0, 0.0), seen(0.5, {sighting(1)})});
+  EXPECT_TRUE(f.filter.batches.empty());
+  EXPECT_EQ(f.pipeline.counts().late, 1);
+}
+
+TEST(Pipeline, TreatsObservationsOfOneStampAsOneBatch) {
+  Fixture f;
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), seen(0.5, {sighting(2), sighting(3)}), speed(1.0, 1.0)});
+  ASSERT_EQ(f.filter.batches.size(), 1U);
+  EXPECT_EQ(f.filter.batches[0].size(), 3U);
+}
+
+TEST(Pipeline, MovesToTheMomentOfTheSightingNotOfItsStamp) {
+  LandmarkSensor sensor;
+  sensor.delay_s = 0.2;
+  Fixture f({}, sensor);
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
+}
+
+TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
+  LandmarkSensor sensor;
+  sensor.range_sigma_m = 0.1;
+  sensor.range_sigma_ratio = 0.05;
+  sensor.bearing_sigma_deg = 2.0;
+  Fixture f({}, sensor);
+  Observation own = sighting(2);
+  own.covariance = Eigen::Matrix2d::Identity();
+  f.push({seen(0.0, {sighting(1), own})});
+  const auto& batch = f.filter.batches.at(0);
+  EXPECT_NEAR((*batch[0].covariance)(0, 0), 0.2 * 0.2, 1e-12);
+  EXPECT_NEAR((*batch[0].covariance)(1, 1), to_radians(2.0) * to_radians(2.0), 1e-12);
+  EXPECT_EQ(*batch[1].covariance, Eigen::Matrix2d::Identity());
+}
+
+TEST(Pipeline, UsesThePartThatIsAskedFor) {
+  Fixture f({}, {}, Observe::kBearing);
+  Observation own = sighting(2);
+  own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
+  f.push({seen(0.0, {own, sighting(1, Range{3.0})})});
+  ASSERT_EQ(f.filter.batches.at(0).size(), 1U);
+  const auto& used = f.filter.batches[0][0];
+  EXPECT_EQ(std::get<Bearing>(used.value).bearing_rad, 0.5);
+  EXPECT_EQ(*used.covariance, (Eigen::Matrix2d{{4.0, 0.0}, {0.0, 0.0}}));
+  EXPECT_EQ(f.pipeline.counts().wrong_kind, 1);
+}
+
+TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {
+  LandmarkSensor sensor;
+  sensor.max_range_m = 5.0;
+  Fixture f({}, sensor);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  f.push({seen(0.0, {sighting(1, RangeBearing{6.0, 0.0}), sighting(1, RangeBearing{-1.0, 0.0}), sighting(1, RangeBearing{nan, 0.0}),
+                     sighting(1, RangeBearing{1.0, nan}), sighting(1)})});
+  EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
+  EXPECT_EQ(f.pipeline.counts().unusable, 4);
+}
+
+TEST(Pipeline, CarriesOnOverAGapInTheOdometry) {
+  Fixture f({.max_hold_s = 1.0});
+  f.push({speed(0.0, 1.0), speed(30.0, 1.0), seen(31.0, {sighting(1)})});
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 2.0, 1e-9);
+  EXPECT_EQ(f.pipeline.counts().odometry_gaps, 1);
+}
+
+TEST(Pipeline, ReportsOneStepPerStamp) {
+  Fixture f;
+  f.push({speed(0.0, 1.0), speed(0.5, 1.0), seen(0.5, {sighting(1)}), {at(0.7), Truth{}}, {at(0.8), Image{}}, speed(1.0, 0.0)});
+  EXPECT_EQ(f.stamps, (std::vector<Stamp>{at(0.0), at(0.5), at(1.0)}));
+}
+
+}  // namespace
+}  // namespace waymark

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+
+#include "waymark/core/config.hpp"
+
+namespace waymark {
+
+struct GateOptions {
+  double probability = 0.9999;  ///< part of the true sightings that may pass
+};
+
+void describe(Schema& schema, GateOptions& options);
+
+/// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a reader
+/// misreads now and then.
+class Gate {
+ public:
+  explicit Gate(const GateOptions& options);
+
+  /// For `dof` of 1 to 3.
+  [[nodiscard]] double threshold(int dof) const { return thresholds_[static_cast<std::size_t>(dof)]; }
+
+ private:
+  std::array<double, 4> thresholds_{};
+};
+
+}  // namespace waymark

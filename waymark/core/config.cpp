@@ -1,0 +1,252 @@
+#include "waymark/core/config.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+namespace waymark {
+namespace {
+
+std::string join(const std::vector<std::string>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) all.append(i + 1 == names.size() ? " or " : ", ");
+    all.append(names[i]);
+  }
+  return all;
+}
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string describe_limits(Limits limits) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (limits.low == -kInfinity && limits.high == kInfinity) return "any number";
+  if (limits.high == kInfinity) return fmt::format("at least {}", limits.low);
+  if (limits.low == -kInfinity) return fmt::format("at most {}", limits.high);
+  return fmt::format("{} to {}", limits.low, limits.high);
+}
+
+template <class Number>
+std::function<bool(std::string_view)> number_setter(Number& field, Limits limits) {
+  return [&field, limits](std::string_view text) {
+    const auto number = parse_number<Number>(text);
+    if (!number || !(static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high))
+      return false;
+    field = *number;
+    return true;
+  };
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+/// Visits every scalar of a tree of sections as ("section.key", value, line).
+template <class Visit>
+Result<void> visit_scalars(const YAML::Node& node, const std::string& prefix, const std::string& file,
+                           const Visit& visit) {
+  // An alias of a section inside itself never ends.
+  constexpr std::ptrdiff_t kMaxDepth = 8;
+  if (std::ranges::count(prefix, '.') > kMaxDepth) return Error{fmt::format("{}: {} is nested too deep", file, prefix)};
+  for (const auto& entry : node) {
+    const std::string name = prefix + entry.first.Scalar();
+    const std::string where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
+    if (entry.second.IsMap()) {
+      if (auto done = visit_scalars(entry.second, name + ".", file, visit); !done) return done;
+    } else if (!entry.second.IsScalar()) {
+      return Error{fmt::format("{}: {} needs a single value", where, name)};
+    } else if (auto done = visit(name, entry.second.Scalar(), where); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+/// The text as YAML reads it back: in double quotes, with escapes, unless it is surely a plain scalar.
+std::string yaml_scalar(const std::string& text) {
+  const auto is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '/'; };
+  const bool null = text == "null" || text == "Null" || text == "NULL";
+  if (parse_number<double>(text) || (!text.empty() && !null && std::ranges::all_of(text, is_plain))) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c)) : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view mistyped, const std::vector<std::string>& known) {
+  std::string nearest;
+  std::size_t best = std::max<std::size_t>(2, mistyped.size() / 2) + 1;
+  for (const auto& name : known) {
+    const std::size_t distance = edit_distance(mistyped, name);
+    if (distance >= best) continue;
+    best = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
+void Schema::add(Key key) {
+  key.default_value = key.get();
+  keys_.push_back(std::move(key));
+}
+
+void Schema::real(std::string name, double& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), describe_limits(limits), [&field] { return fmt::format("{}", field); },
+       number_setter(field, limits), {}});
+}
+
+void Schema::integer(std::string name, int& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), {}});
+}
+
+void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), {}});
+}
+
+void Schema::boolean(std::string name, bool& field, std::string help) {
+  auto set = [&field](std::string_view text) {
+    if (text != "true" && text != "false") return false;
+    field = text == "true";
+    return true;
+  };
+  add({std::move(name), std::move(help), "true or false",
+       [&field] { return std::string(field ? "true" : "false"); }, std::move(set), {}});
+}
+
+void Schema::text(std::string name, std::string& field, std::string help) {
+  auto set = [&field](std::string_view text) {
+    field = text;
+    return true;
+  };
+  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set), {}});
+}
+
+void Schema::add_choice(std::string name, std::vector<std::string> names, std::string help,
+                        std::function<std::size_t()> get, std::function<void(std::size_t)> set) {
+  auto shared = std::make_shared<const std::vector<std::string>>(std::move(names));
+  auto set_by_name = [shared, set = std::move(set)](std::string_view text) {
+    const auto found = std::ranges::find(*shared, text);
+    if (found == shared->end()) return false;
+    set(static_cast<std::size_t>(found - shared->begin()));
+    return true;
+  };
+  add({std::move(name), std::move(help), join(*shared), [shared, get = std::move(get)] { return (*shared)[get()]; },
+       std::move(set_by_name), {}});
+}
+
+const Schema::Key* Schema::find(std::string_view name) const {
+  const auto found = std::ranges::find(keys_, name, &Key::name);
+  return found == keys_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Schema::keys() const {
+  std::vector<std::string> names;
+  for (const auto& key : keys_) names.push_back(key.name);
+  return names;
+}
+
+std::string Schema::value(std::string_view key) const { return find(key)->get(); }
+
+/// A key typed without its section, or with a wrong one, is nearest to the key with the same last part.
+std::string Schema::nearest(std::string_view name) const {
+  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
+  std::vector<std::string> same;
+  for (const auto& key : keys_)
+    if (last_part(key.name) == last_part(name)) same.push_back(key.name);
+  if (same.empty()) return nearest_name(name, keys());
+  return *std::ranges::min_element(same, {}, [name](const std::string& key) { return edit_distance(key, name); });
+}
+
+Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
+  const Key* found = find(key);
+  if (found == nullptr) {
+    const std::string guess = nearest(key);
+    return Error{fmt::format("{}: unknown key {}{}", where, key,
+                             guess.empty() ? "; `waymark config` lists all keys" : fmt::format("; did you mean {}?", guess))};
+  }
+  if (!found->set(value))
+    return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
+  return {};
+}
+
+Result<void> Schema::set_assignment(std::string_view assignment, std::string_view where) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    return Error{fmt::format("{}: '{}' is not of the form key=value", where, assignment)};
+  return set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
+}
+
+Result<void> Schema::load_text(const std::string& yaml, const std::string& name) {
+  try {
+    const YAML::Node root = YAML::Load(yaml);
+    if (root.IsNull()) return {};
+    if (!root.IsMap()) return Error{name + ":1: expected sections of `key: value`"};
+    return visit_scalars(root, "", name, [this](const std::string& key, const std::string& value, const std::string& where) {
+      return set(key, value, where);
+    });
+  } catch (const YAML::Exception& problem) {
+    return Error{fmt::format("{}:{}: {}", name, problem.mark.line + 1, problem.msg)};
+  }
+}
+
+Result<void> Schema::load_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path)) return Error{path.string() + ": cannot be read"};
+  std::ostringstream text;
+  text << file.rdbuf();
+  return load_text(text.str(), path.string());
+}
+
+std::string Schema::to_yaml() const {
+  // "section." of a key, "" where it has none: npos + 1 is 0.
+  const auto section_of = [](const Key& key) { return key.name.substr(0, key.name.find('.') + 1); };
+  std::vector<std::string> sections;
+  for (const auto& key : keys_)
+    if (std::ranges::find(sections, section_of(key)) == sections.end()) sections.push_back(section_of(key));
+  std::string yaml;
+  for (const auto& section : sections) {
+    if (!section.empty()) yaml += "\n" + section.substr(0, section.size() - 1) + ":\n";
+    const std::string indent = section.empty() ? "" : "  ";
+    for (const auto& key : keys_) {
+      if (section_of(key) != section) continue;
+      yaml += fmt::format("{}# {} ({}; default {})\n", indent, key.help, key.allowed,
+                          key.default_value.empty() ? "empty" : yaml_scalar(key.default_value));
+      yaml += fmt::format("{}{}: {}\n", indent, key.name.substr(section.size()), yaml_scalar(key.get()));
+    }
+  }
+  return yaml;
+}
+
+}  // namespace waymark

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "waymark/core/observation.hpp"
+#include "waymark/core/pose2.hpp"
+#include "waymark/core/stamp.hpp"
+
+namespace waymark {
+
+/// Cumulative encoder angles; forward rolling counts up on both sides.
+struct WheelAngles {
+  double left_rad = 0.0;
+  double right_rad = 0.0;
+};
+
+/// Forward and turning speed, held until the next one.
+struct Velocity {
+  double v_mps = 0.0;
+  double w_radps = 0.0;
+};
+
+/// Forward speed and steering angle (left positive), held until the next one.
+struct Steering {
+  double v_mps = 0.0;
+  double steer_rad = 0.0;
+};
+
+/// The robot's own dead reckoning, in a frame that starts anywhere.
+struct OdometryPose {
+  Pose2 T_odom_robot;
+};
+
+/// A picture, named by its file; who needs the pixels loads them.
+struct Image {
+  std::string file;
+};
+
+/// Where the truth sensor really was. The heading may be unknown.
+struct Truth {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  std::optional<double> theta_rad;
+};
+
+using EventContent = std::variant<WheelAngles, Velocity, Steering, OdometryPose, Image, Observations, Truth>;
+
+/// What a log is made of.
+struct Event {
+  Stamp stamp;
+  EventContent content;
+};
+
+}  // namespace waymark

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "waymark/core/map_state.hpp"
+#include "waymark/core/motion.hpp"
+#include "waymark/core/observation.hpp"
+
+namespace waymark {
+
+class FunctionBlocks;
+
+/// What became of one observation.
+enum class Outcome : std::uint8_t {
+  kMatched,       ///< updated the filter
+  kAdded,         ///< became a new landmark
+  kGated,         ///< too far from where its landmark was expected: a misread identity or a wild measurement
+  kUnidentified,  ///< carries no identity, and this filter was told that identities are known
+  kUnusable,      ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
+  kDuplicate,     ///< a second sighting of one landmark in one scan
+  kMapFull,       ///< would have been a new landmark, but there is no room
+};
+
+[[nodiscard]] const char* describe(Outcome outcome);
+
+/// How one observation compared with what was expected.
+struct Innovation {
+  LandmarkId landmark;
+  Outcome outcome = Outcome::kUnusable;
+  int dof = 0;        ///< 0 where nothing was compared
+  double nis = 0.0;   ///< nu^T S^-1 nu: chi-square with `dof` degrees of freedom if all is well
+  double gate = 0.0;  ///< the NIS above which it is refused
+};
+
+/// What correct() did. A view into the filter, valid until its next call.
+struct Correction {
+  std::span<const Innovation> innovations;  ///< one per observation, in their order
+  std::span<const LandmarkId> removed;
+  [[nodiscard]] int count(Outcome outcome) const;
+};
+
+/// The seam between the pipeline and whatever estimates: one virtual call per step, everything within is concrete.
+/// predict(), correct() and pose() neither allocate in a steady state nor throw.
+class Filter {
+ public:
+  Filter() = default;
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+  virtual ~Filter() = default;
+
+  virtual void predict(const Motion& motion) = 0;
+
+  /// All observations were made at the pose that the last predict() reached, and carry their covariance.
+  virtual const Correction& correct(std::span<const Observation> observations) = 0;
+
+  /// Cheap: called after every step.
+  [[nodiscard]] virtual PoseEstimate pose() const = 0;
+
+  /// The map with marginal covariances; allocates. The stamp is the caller's to fill in.
+  [[nodiscard]] virtual Snapshot snapshot() const = 0;
+
+  /// The belief with all its correlations; allocates. Stamp and provenance are the caller's to fill in.
+  [[nodiscard]] virtual MapState save() const = 0;
+
+  /// Where the time went, block by block.
+  [[nodiscard]] virtual const FunctionBlocks& blocks() const = 0;
+};
+
+}  // namespace waymark

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <optional>
+
+namespace waymark {
+
+/// Finite, symmetric to 1e-9 of its largest entry, and no eigenvalue below -1e-9 of the largest one.
+/// O(n^3): for inputs and tests, not for the hot loop.
+template <class Derived>
+[[nodiscard]] bool is_covariance(const Eigen::MatrixBase<Derived>& P) {
+  if (P.rows() != P.cols() || !P.allFinite()) return false;
+  const double scale = P.cwiseAbs().maxCoeff();
+  if (scale == 0.0) return true;
+  if ((P - P.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) return false;
+  const Eigen::MatrixXd dense = P;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() >=
+         -1e-9 * scale;
+}
+
+/// nu^T S^-1 nu by Cholesky, or nothing when S is not positive definite or anything is not finite.
+template <int N>
+[[nodiscard]] std::optional<double> mahalanobis_squared(const Eigen::Matrix<double, N, 1>& nu,
+                                                        const Eigen::Matrix<double, N, N>& S) {
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> llt(S);
+  if (llt.info() != Eigen::Success || !S.allFinite()) return std::nullopt;
+  const double d2 = nu.dot(llt.solve(nu));
+  return d2 >= 0.0 && d2 < 1e300 ? std::optional(d2) : std::nullopt;
+}
+
+/// A mean with its covariance, N-dimensional.
+template <int N>
+struct Gaussian {
+  Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Zero();
+
+  [[nodiscard]] bool is_valid() const { return mean.allFinite() && is_covariance(covariance); }
+};
+
+}  // namespace waymark

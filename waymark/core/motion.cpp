@@ -1,0 +1,17 @@
+#include "waymark/core/motion.hpp"
+
+namespace waymark {
+
+PoseEstimate propagate(const PoseEstimate& before, const Motion& motion) {
+  const Eigen::Matrix3d F = compose_jacobian_left(before.T_world_robot, motion.increment);
+  const Eigen::Matrix3d G = compose_jacobian_right(before.T_world_robot);
+  const Eigen::Matrix3d P = F * before.covariance * F.transpose() + G * motion.covariance * G.transpose();
+  return {before.T_world_robot * motion.increment, 0.5 * (P + P.transpose())};
+}
+
+Motion compose(const Motion& first, const Motion& second) {
+  const PoseEstimate both = propagate({first.increment, first.covariance}, second);
+  return {both.T_world_robot, both.covariance};
+}
+
+}  // namespace waymark

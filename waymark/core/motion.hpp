@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "waymark/core/pose2.hpp"
+
+namespace waymark {
+
+/// What every kind of odometry becomes, and all that a filter knows of it: how far the robot moved, in the frame
+/// it had before, and how sure that is.
+struct Motion {
+  Pose2 increment;  ///< T_before_after
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta) of the increment, robot frame before
+};
+
+/// The robot stood still: no noise enters, no particle is moved.
+[[nodiscard]] inline bool is_still(const Motion& motion) {
+  return motion.increment == Pose2{} && motion.covariance.isZero(0.0);
+}
+
+/// Two motions in a row as one: T_0_2 = T_0_1 * T_1_2, covariance to first order.
+[[nodiscard]] Motion compose(const Motion& first, const Motion& second);
+
+/// A pose with its covariance in (x, y, theta), world frame.
+struct PoseEstimate {
+  Pose2 T_world_robot;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// The pose after a motion, covariance to first order: F P F^T + G Q G^T.
+[[nodiscard]] PoseEstimate propagate(const PoseEstimate& before, const Motion& motion);
+
+}  // namespace waymark

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "waymark/core/event.hpp"
+#include "waymark/core/result.hpp"
+
+namespace waymark {
+
+/// A surveyed landmark, world frame of the truth.
+struct TrueLandmark {
+  LandmarkId id;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+};
+
+/// What a log says about itself before its first event.
+struct LogInfo {
+  std::string name;
+  std::string format;  ///< "log folder", "MRCLAM", "simulation", ...
+  /// Config keys that the log knows about its robot (wheels, mounts, noise): they rank above the defaults and
+  /// below what the user says.
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::vector<TrueLandmark> landmarks;
+  std::optional<Eigen::Vector2d> truth_sensor_m;  ///< where on the robot the truth was measured; empty: its origin
+};
+
+/// Anything that produces events: a reader, the simulator, a robot. Who reads it cannot tell which.
+class Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+
+  [[nodiscard]] virtual const LogInfo& info() const = 0;
+
+  /// The next event, nothing at the end, or why reading cannot go on. Events of one kind come in the log's order.
+  [[nodiscard]] virtual Result<std::optional<Event>> next() = 0;
+
+  /// What was skipped, mended or odd so far, one line each, with counts.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+
+  /// Fraction of the log that has been read, for a progress bar.
+  [[nodiscard]] virtual double progress() const { return 0.0; }
+};
+
+}  // namespace waymark

@@ -1,0 +1,168 @@
+#include "waymark/ekf/ekf_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "waymark/core/gaussian.hpp"
+#include "waymark/models/observation_models.hpp"
+
+namespace waymark {
+namespace {
+
+enum Block : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
+
+/// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
+Outcome admissible(const Observation& observation) {
+  const auto* z = std::get_if<RangeBearing>(&observation.value);
+  const bool usable = z != nullptr && observation.covariance.has_value() && observation.covariance->allFinite() &&
+                      std::isfinite(z->range_m) && std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
+  if (!usable) return Outcome::kUnusable;
+  return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
+}
+
+}  // namespace
+
+void describe(Schema& schema, EkfOptions& options) {
+  schema.choice("ekf.consistency", options.consistency, {"invariant", "fej", "standard"},
+                "where the filter linearises: invariant error, first estimates, or latest estimates as in the article");
+  schema.integer("ekf.capacity", options.capacity, {1, 20000}, "most landmarks in the map; memory is taken once");
+}
+
+EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads)
+    : state_(2, options.capacity, options.consistency, threads),
+      gate_(gate),
+      T_robot_sensor_(T_robot_sensor),
+      index_(static_cast<std::size_t>(options.capacity)) {
+  landmarks_.reserve(static_cast<std::size_t>(options.capacity));
+  sightings_.reserve(ekf::State::kMaxSightings);
+}
+
+void EkfSlam::predict(const Motion& motion) {
+  BlockTimer timer(blocks_);
+  if (!is_still(motion)) state_.predict(motion);
+  timer.finish(kPredict);
+}
+
+const Correction& EkfSlam::correct(std::span<const Observation> observations) {
+  BlockTimer timer(blocks_);
+  prepare(observations.size());
+  for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
+  timer.finish(kAssociate);
+  update(observations);
+  timer.finish(kEstimate);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
+  timer.finish(kAdd);
+  correction_ = {innovations_, {}};
+  return correction_;
+}
+
+void EkfSlam::prepare(std::size_t count) { innovations_.assign(count, {}); }
+
+bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
+  return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index), [id](const Innovation& earlier) {
+    return earlier.landmark == id && (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded);
+  });
+}
+
+/// Decides what becomes of one observation, all at the pose before the update.
+void EkfSlam::associate(std::size_t index, const Observation& observation) {
+  Innovation& innovation = innovations_[index];
+  innovation.outcome = admissible(observation);
+  if (innovation.outcome != Outcome::kMatched) return;
+  innovation.landmark = *observation.id;
+  if (already_seen(index, innovation.landmark)) {
+    innovation.outcome = Outcome::kDuplicate;
+    return;
+  }
+  const auto landmark = index_.find(innovation.landmark);
+  if (!landmark) {
+    innovation.outcome = state_.landmarks() < state_.capacity() ? Outcome::kAdded : Outcome::kMapFull;
+    return;
+  }
+  const auto sighting = linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance);
+  const auto nis = mahalanobis_squared<2>(sighting.nu, state_.innovation_covariance(sighting));
+  innovation.dof = nis ? 2 : 0;
+  innovation.nis = nis.value_or(0.0);
+  innovation.gate = gate_.threshold(2);
+  if (!nis) innovation.outcome = Outcome::kUnusable;
+  if (nis && *nis > innovation.gate) innovation.outcome = Outcome::kGated;
+}
+
+/// Innovation at the present estimate, Jacobians where the consistency mode wants them.
+ekf::Sighting EkfSlam::linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const {
+  const Eigen::Vector2d p = state_.landmark(landmark).head<2>();
+  const auto here = RangeBearingModel::linearize(state_.pose().T_world_robot, T_robot_sensor_, p);
+  const auto jacobians = RangeBearingModel::linearize(state_.linearization_pose(), T_robot_sensor_,
+                                                      state_.linearization_landmark(landmark).head<2>());
+  ekf::Sighting sighting;
+  sighting.landmark = landmark;
+  sighting.nu = RangeBearingModel::innovation(z, here.predicted);
+  sighting.H_pose = jacobians.H_pose;
+  sighting.H_landmark.leftCols<2>() = jacobians.H_landmark;
+  sighting.R = R;
+  return sighting;
+}
+
+/// In blocks of at most kMaxSightings; a later block is linearised at what the earlier ones found.
+void EkfSlam::update(std::span<const Observation> observations) {
+  std::size_t next = 0;
+  while (next < observations.size()) {
+    const std::size_t first = next;
+    sightings_.clear();
+    for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next) {
+      if (innovations_[next].outcome != Outcome::kMatched) continue;
+      const int landmark = *index_.find(innovations_[next].landmark);
+      sightings_.push_back(linearize(landmark, std::get<RangeBearing>(observations[next].value), *observations[next].covariance));
+    }
+    const bool done = state_.update(sightings_);
+    for (std::size_t i = first; i < next; ++i) {
+      if (innovations_[i].outcome != Outcome::kMatched) continue;
+      if (done) ++landmarks_[static_cast<std::size_t>(*index_.find(innovations_[i].landmark))].observations;
+      else innovations_[i].outcome = Outcome::kUnusable;
+    }
+  }
+}
+
+void EkfSlam::add(std::size_t index, const Observation& observation) {
+  if (state_.landmarks() == state_.capacity()) {
+    innovations_[index].outcome = Outcome::kMapFull;
+    return;
+  }
+  const auto& z = std::get<RangeBearing>(observation.value);
+  const auto inverse = RangeBearingModel::locate(state_.pose().T_world_robot, T_robot_sensor_, z);
+  const Eigen::Vector3d position(inverse.p_world.x(), inverse.p_world.y(), 0.0);
+  Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
+  G_pose.topRows<2>() = inverse.G_pose;
+  G_pose.block<2, 1>(0, 2) = perpendicular(inverse.p_world - state_.linearization_pose().position());
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  noise.topLeftCorner<2, 2>() = inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
+  index_.assign(*observation.id, state_.add(position, G_pose, noise));
+  landmarks_.push_back({*observation.id, 1});
+}
+
+Snapshot EkfSlam::snapshot() const {
+  Snapshot snapshot{{}, state_.pose(), {}};
+  for (int i = 0; i < state_.landmarks(); ++i) {
+    const Landmark& landmark = landmarks_[static_cast<std::size_t>(i)];
+    snapshot.landmarks.push_back(
+        {landmark.id, state_.landmark(i), state_.landmark_covariance(i), landmark.observations});
+  }
+  return snapshot;
+}
+
+MapState EkfSlam::save() const {
+  MapState map;
+  map.landmark_dimension = state_.dimension();
+  map.T_world_robot = state_.pose().T_world_robot;
+  for (const Landmark& landmark : landmarks_) {
+    map.ids.push_back(landmark.id);
+    map.observations.push_back(landmark.observations);
+  }
+  const Eigen::VectorXd mean = state_.mean();
+  map.landmarks = mean.tail(mean.size() - 3);
+  map.covariance = state_.covariance();
+  return map;
+}
+
+}  // namespace waymark

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "waymark/association/gate.hpp"
+#include "waymark/association/id_index.hpp"
+#include "waymark/core/filter.hpp"
+#include "waymark/core/function_blocks.hpp"
+#include "waymark/ekf/state.hpp"
+
+namespace waymark {
+
+struct EkfOptions {
+  ekf::Consistency consistency = ekf::Consistency::kInvariant;
+  int capacity = 1000;
+};
+
+void describe(Schema& schema, EkfOptions& options);
+
+/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known identities,
+/// gated one by one; a first sighting adds its landmark.
+class EkfSlam final : public Filter {
+ public:
+  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1);
+
+  void predict(const Motion& motion) override;
+  const Correction& correct(std::span<const Observation> observations) override;
+  [[nodiscard]] PoseEstimate pose() const override { return state_.pose(); }
+  [[nodiscard]] Snapshot snapshot() const override;
+  [[nodiscard]] MapState save() const override;
+  [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
+
+  [[nodiscard]] const ekf::State& state() const { return state_; }
+
+ private:
+  struct Landmark {
+    LandmarkId id;
+    int observations = 0;
+  };
+
+  void prepare(std::size_t count);
+  void associate(std::size_t index, const Observation& observation);
+  [[nodiscard]] ekf::Sighting linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const;
+  void update(std::span<const Observation> observations);
+  void add(std::size_t index, const Observation& observation);
+  [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
+
+  ekf::State state_;
+  Gate gate_;
+  Pose2 T_robot_sensor_;
+  IdIndex index_;
+  std::vector<Landmark> landmarks_;       // by index in the state
+  std::vector<Innovation> innovations_;   // one per observation of the last correct()
+  std::vector<ekf::Sighting> sightings_;  // of one block of the update
+  Correction correction_;
+  FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};
+};
+
+}  // namespace waymark

@@ -1,0 +1,296 @@
+#include "waymark/ekf/state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "waymark/kernels/add_scaled_rows.hpp"
+#include "waymark/kernels/move_block.hpp"
+#include "waymark/kernels/symmetric_rows.hpp"
+#include "waymark/kernels/symmetric_update.hpp"
+#include "waymark/kernels/triangular_solve.hpp"
+
+namespace waymark::ekf {
+namespace {
+
+/// Below this size of the state a second thread costs more than it brings.
+constexpr std::size_t kParallelSize = 800;
+
+/// V(a): how a turn by a carries a displacement along (the left Jacobian of SO(2)).
+Eigen::Matrix2d turn_jacobian(double a) {
+  const double sine = std::abs(a) < 1e-6 ? 1.0 - a * a / 6.0 : std::sin(a) / a;
+  const double versine = std::abs(a) < 1e-6 ? 0.5 * a : (1.0 - std::cos(a)) / a;
+  return Eigen::Matrix2d{{sine, -versine}, {versine, sine}};
+}
+
+}  // namespace
+
+State::State(int dimension, int capacity, Consistency consistency, int threads)
+    : dimension_(dimension),
+      capacity_(capacity),
+      consistency_(consistency),
+      ld_(kernels::padded_stride(offset(capacity))),
+      x_(ld_),
+      first_(ld_),
+      P_(ld_ * ld_),
+      W_(ld_ * kMaxSightings * 2),
+      dx_(ld_),
+      shear_d_(ld_),
+      shear_e_(ld_),
+      S_(2 * kMaxSightings, 2 * kMaxSightings),
+      nu_(2 * kMaxSightings),
+      team_(threads) {}
+
+PoseEstimate State::pose() const {
+  Eigen::Matrix3d covariance;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) covariance(static_cast<int>(i), static_cast<int>(j)) = P(i, j);
+  return {{x_[0], x_[1], x_[2]}, covariance};
+}
+
+Eigen::Vector3d State::landmark(int index) const {
+  const double* p = &x_[offset(index)];
+  return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
+}
+
+Eigen::Matrix3d State::landmark_covariance(int index) const {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.topLeftCorner(dimension_, dimension_) = joint_covariance(index).block(3, 3, dimension_, dimension_);
+  return covariance;
+}
+
+Pose2 State::linearization_pose() const {
+  return consistency_ == Consistency::kFej ? linearization_pose_ : Pose2{x_[0], x_[1], x_[2]};
+}
+
+Eigen::Vector3d State::linearization_landmark(int index) const {
+  if (consistency_ != Consistency::kFej) return landmark(index);
+  const double* p = &first_[offset(index)];
+  return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
+}
+
+void State::set_pose(const PoseEstimate& pose) {
+  assert(landmarks_ == 0);
+  x_[0] = pose.T_world_robot.x_m;
+  x_[1] = pose.T_world_robot.y_m;
+  x_[2] = pose.T_world_robot.theta_rad;
+  linearization_pose_ = pose.T_world_robot;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] = pose.covariance(static_cast<int>(i), static_cast<int>(j));
+}
+
+void State::predict(const Motion& motion) {
+  const PoseEstimate before = pose();
+  const Pose2 after = before.T_world_robot * motion.increment;
+  // F's heading column is J times the displacement between the points of linearisation.
+  const Eigen::Vector2d phi = perpendicular(after.position() - linearization_pose().position());
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F.block<2, 1>(0, 2) = phi;
+  const Eigen::Matrix3d G = compose_jacobian_right(linearization_pose());
+  const Eigen::Matrix3d P_rr = F * before.covariance * F.transpose() + G * motion.covariance * G.transpose();
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] = P_rr(static_cast<int>(i), static_cast<int>(j));
+  pending_phi_ += phi;
+  pending_ = true;
+  linearization_pose_ = after;
+  x_[0] = after.x_m;
+  x_[1] = after.y_m;
+  x_[2] = after.theta_rad;
+}
+
+void State::join_robot_rows() {
+  if (!pending_) return;
+  double* row_x = &P_[0];
+  double* row_y = &P_[ld_];
+  const double* row_theta = &P_[2 * ld_];
+  for (std::size_t j = 3; j < size(); ++j) {
+    row_x[j] += pending_phi_.x() * row_theta[j];
+    row_y[j] += pending_phi_.y() * row_theta[j];
+  }
+  pending_phi_.setZero();
+  pending_ = false;
+}
+
+/// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row zero.
+Eigen::Matrix<double, 6, 6> State::joint_covariance(int index) const {
+  Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
+  const std::size_t first = offset(index);
+  const auto d = static_cast<std::size_t>(dimension_);
+  for (std::size_t i = 0; i < 3 + d; ++i)
+    for (std::size_t j = i; j < 3 + d; ++j)
+      joint(static_cast<int>(i), static_cast<int>(j)) = P(i < 3 ? i : first + i - 3, j < 3 ? j : first + j - 3);
+  joint.block(0, 3, 2, dimension_) += pending_phi_ * joint.block(2, 3, 1, dimension_);
+  joint.triangularView<Eigen::StrictlyLower>() = joint.transpose();
+  return joint;
+}
+
+Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
+  Eigen::Matrix<double, 2, 6> H;
+  H << sighting.H_pose, sighting.H_landmark;
+  return H * joint_covariance(sighting.landmark) * H.transpose() + sighting.R;
+}
+
+bool State::update(std::span<const Sighting> sightings) {
+  assert(sightings.size() <= kMaxSightings);
+  if (sightings.empty()) return true;
+  join_robot_rows();
+  const std::size_t rows = project(sightings);
+  form_innovation_covariance(sightings, static_cast<int>(rows));
+  if (!factorize(static_cast<int>(rows))) return false;
+  kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
+  std::fill_n(dx_.data(), size(), 0.0);
+  kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), size());
+  if (consistency_ == Consistency::kInvariant)
+    apply_invariantly(rows);
+  else
+    apply_additively(rows);
+  return true;
+}
+
+/// W <- C = H P from the touched rows of P; returns the number of measurement rows.
+std::size_t State::project(std::span<const Sighting> sightings) {
+  std::size_t row = 0;
+  const auto d = static_cast<std::size_t>(dimension_);
+  for (const Sighting& sighting : sightings) {
+    const std::size_t first = offset(sighting.landmark);
+    const std::array<std::size_t, 6> touched{0, 1, 2, first, first + 1, first + 2};
+    Eigen::Matrix<double, 2, 6, Eigen::RowMajor> H;
+    H << sighting.H_pose, sighting.H_landmark;
+    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor, 2, 6> H_touched = H.leftCols(3 + dimension_);
+    const auto rows = static_cast<std::size_t>(sighting.rows);
+    kernels::project_rows(P_.data(), ld_, size(), touched.data(), 3 + d, H_touched.data(), rows, &W_[row * ld_], ld_);
+    nu_.segment(static_cast<int>(row), sighting.rows) = sighting.nu.head(sighting.rows);
+    row += rows;
+  }
+  return row;
+}
+
+/// The lower triangle of S = C H^T + R.
+void State::form_innovation_covariance(std::span<const Sighting> sightings, int rows) {
+  int column = 0;
+  for (const Sighting& sighting : sightings) {
+    const std::size_t first = offset(sighting.landmark);
+    for (int i = column; i < rows; ++i) {
+      const double* c = &W_[static_cast<std::size_t>(i) * ld_];
+      for (int r = 0; r < sighting.rows; ++r) {
+        double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
+        for (int k = 0; k < 3; ++k) s += c[k] * sighting.H_pose(r, k);
+        for (int k = 0; k < dimension_; ++k) s += c[first + static_cast<std::size_t>(k)] * sighting.H_landmark(r, k);
+        S_(i, column + r) = s;
+      }
+    }
+    column += sighting.rows;
+  }
+}
+
+/// S = L L^T in place, nu <- L^-1 nu. False if S is not positive definite.
+bool State::factorize(int rows) {
+  for (int j = 0; j < rows; ++j) {
+    const double pivot = S_(j, j) - S_.row(j).head(j).squaredNorm();
+    if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+    S_(j, j) = std::sqrt(pivot);
+    for (int i = j + 1; i < rows; ++i) S_(i, j) = (S_(i, j) - S_.row(i).head(j).dot(S_.row(j).head(j))) / S_(j, j);
+    nu_[j] = (nu_[j] - S_.row(j).head(j).dot(nu_.head(j))) / S_(j, j);
+  }
+  return true;
+}
+
+void State::apply_additively(std::size_t rows) {
+  for (std::size_t j = 0; j < size(); ++j) x_[j] += dx_[j];
+  x_[2] = wrap_angle(x_[2]);
+  if (consistency_ == Consistency::kStandard) linearization_pose_ = {x_[0], x_[1], x_[2]};
+  correct_covariance(rows, false);
+}
+
+/// The ordinary increment dq of every ground point becomes V(a) dq, with a the change of heading, and the covariance
+/// is sheared along d = J V(a) dq: the right-invariant filter in ordinary coordinates.
+void State::apply_invariantly(std::size_t rows) {
+  const double turn = dx_[2];
+  const Eigen::Matrix2d V = turn_jacobian(turn);
+  std::fill_n(shear_d_.data(), size(), 0.0);
+  const auto move = [&](std::size_t at) {
+    const Eigen::Vector2d moved = V * Eigen::Vector2d(dx_[at], dx_[at + 1]);
+    x_[at] += moved.x();
+    x_[at + 1] += moved.y();
+    shear_d_[at] = -moved.y();
+    shear_d_[at + 1] = moved.x();
+  };
+  move(0);
+  x_[2] = wrap_angle(x_[2] + turn);
+  for (int i = 0; i < landmarks_; ++i) {
+    move(offset(i));
+    if (dimension_ == 3) x_[offset(i) + 2] += dx_[offset(i) + 2];
+  }
+  linearization_pose_ = {x_[0], x_[1], x_[2]};
+  correct_covariance(rows, true);
+}
+
+/// e = c + c_th/2 d, with c the heading column as the downdate will leave it.
+void State::prepare_shear(std::size_t rows) {
+  kernels::gather_rows(P_.data(), ld_, size(), 2, 1, shear_e_.data(), ld_);
+  std::array<double, 2 * kMaxSightings> w_heading;
+  for (std::size_t k = 0; k < rows; ++k) w_heading[k] = -W_[k * ld_ + 2];
+  kernels::add_scaled_rows(shear_e_.data(), W_.data(), ld_, rows, w_heading.data(), size());
+  const double half_c_theta = 0.5 * shear_e_[2];
+  for (std::size_t j = 0; j < size(); ++j) shear_e_[j] += half_c_theta * shear_d_[j];
+}
+
+void State::correct_covariance(std::size_t rows, bool shear) {
+  if (shear) prepare_shear(rows);
+  const int bands = size() < kParallelSize ? 1 : team_.size();
+  team_.run(bands, [&](int band) {
+    const auto range = kernels::triangle_band(size(), static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
+    if (shear)
+      kernels::symmetric_update(P_.data(), ld_, size(), W_.data(), ld_, rows, shear_d_.data(), shear_e_.data(), range);
+    else
+      kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows, range);
+  });
+}
+
+int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+  assert(landmarks_ < capacity_);
+  join_robot_rows();
+  const std::size_t first = size();
+  const auto d = static_cast<std::size_t>(dimension_);
+  for (std::size_t a = 0; a < d; ++a) {
+    const Eigen::Vector3d g = G_pose.row(static_cast<int>(a));
+    for (std::size_t j = 0; j < first; ++j) P_[j * ld_ + first + a] = g[0] * P(0, j) + g[1] * P(1, j) + g[2] * P(2, j);
+    x_[first + a] = first_[first + a] = position[static_cast<int>(a)];
+  }
+  const Eigen::Matrix3d P_new = G_pose * pose().covariance * G_pose.transpose() + noise;
+  for (std::size_t a = 0; a < d; ++a)
+    for (std::size_t b = a; b < d; ++b)
+      P_[(first + a) * ld_ + first + b] = P_new(static_cast<int>(a), static_cast<int>(b));
+  return landmarks_++;
+}
+
+void State::remove(int index) {
+  assert(index >= 0 && index < landmarks_);
+  join_robot_rows();
+  const std::size_t to = offset(index);
+  const std::size_t from = offset(landmarks_ - 1);
+  if (to != from) {
+    const auto d = static_cast<std::size_t>(dimension_);
+    kernels::move_block(P_.data(), ld_, size(), from, to, d);
+    std::copy_n(&x_[from], d, &x_[to]);
+    std::copy_n(&first_[from], d, &first_[to]);
+  }
+  --landmarks_;
+}
+
+Eigen::VectorXd State::mean() const { return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<int>(size())); }
+
+Eigen::MatrixXd State::covariance() const {
+  const auto n = static_cast<int>(size());
+  Eigen::MatrixXd full(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) full(i, j) = P(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  if (landmarks_ > 0) {
+    full.topRightCorner(2, n - 3) += pending_phi_ * full.block(2, 3, 1, n - 3);
+    full.bottomLeftCorner(n - 3, 2) = full.topRightCorner(2, n - 3).transpose();
+  }
+  return full;
+}
+
+}  // namespace waymark::ekf

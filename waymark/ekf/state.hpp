@@ -1,0 +1,120 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "waymark/core/aligned_array.hpp"
+#include "waymark/core/motion.hpp"
+#include "waymark/core/parallel.hpp"
+#include "waymark/kernels/layout.hpp"
+
+namespace waymark::ekf {
+
+/// At which point the filter linearises, which decides whether it fools itself about its heading.
+enum class Consistency {
+  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after each update
+  kFej,        ///< first-estimates Jacobians (Huang, Mourikis, Roumeliotis 2010)
+  kStandard,   ///< at the latest estimate, as in the 2012 article; overconfident when the odometry is poor
+};
+
+/// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its noise.
+/// Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
+struct Sighting {
+  int landmark = 0;
+  int rows = 2;
+  Eigen::Vector2d nu = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3> H_pose = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix<double, 2, 3> H_landmark = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
+};
+
+/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that writes
+/// either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here allocates later.
+///
+/// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension * landmarks:
+/// predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop, add O(n), remove O(n).
+class State {
+ public:
+  State(int dimension, int capacity, Consistency consistency, int threads = 1);
+
+  [[nodiscard]] int dimension() const { return dimension_; }
+  [[nodiscard]] int landmarks() const { return landmarks_; }
+  [[nodiscard]] int capacity() const { return capacity_; }
+  /// Most sightings that one update() takes.
+  static constexpr int kMaxSightings = 32;
+
+  [[nodiscard]] PoseEstimate pose() const;
+  /// Position and covariance of a landmark; z is 0 for 2-D ones. World frame.
+  [[nodiscard]] Eigen::Vector3d landmark(int index) const;
+  [[nodiscard]] Eigen::Matrix3d landmark_covariance(int index) const;
+
+  /// Where Jacobians are to be taken: the present estimate, or the first ones with kFej.
+  [[nodiscard]] Pose2 linearization_pose() const;
+  [[nodiscard]] Eigen::Vector3d linearization_landmark(int index) const;
+
+  /// Replaces the belief in the pose; only before anything was predicted or added.
+  void set_pose(const PoseEstimate& pose);
+
+  /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed.
+  void predict(const Motion& motion);
+
+  /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
+  [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
+
+  /// Exact update with all sightings at once (Vincke et al. 2012, equations 10 to 12, as P -= W^T W with
+  /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive definite.
+  [[nodiscard]] bool update(std::span<const Sighting> sightings);
+
+  /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only their
+  /// leading `dimension()` rows count. Returns its index. The map must not be full.
+  int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
+
+  /// Marginalises a landmark out; the last one takes its index.
+  void remove(int index);
+
+  /// The whole mean and the whole symmetric covariance; allocates.
+  [[nodiscard]] Eigen::VectorXd mean() const;
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+
+ private:
+  using Buffer = AlignedArray<double>;
+
+  [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
+  [[nodiscard]] std::size_t offset(int index) const { return 3 + static_cast<std::size_t>(index * dimension_); }
+  [[nodiscard]] double P(std::size_t i, std::size_t j) const { return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i]; }
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_covariance(int index) const;
+
+  void join_robot_rows();
+  std::size_t project(std::span<const Sighting> sightings);
+  void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
+  [[nodiscard]] bool factorize(int rows);
+  void apply_additively(std::size_t rows);
+  void apply_invariantly(std::size_t rows);
+  void prepare_shear(std::size_t rows);
+  void correct_covariance(std::size_t rows, bool shear);
+
+  int dimension_;
+  int capacity_;
+  Consistency consistency_;
+  int landmarks_ = 0;
+  std::size_t ld_;
+
+  Buffer x_;              // n: the mean
+  Buffer first_;          // n: first estimates of the landmarks (kFej)
+  Buffer P_;              // n x n, upper triangle
+  Buffer W_;              // D x n: H P, then L^-1 H P
+  Buffer dx_;             // n: K nu
+  Buffer shear_d_;        // n: d of the shear
+  Buffer shear_e_;        // n: c + c_th/2 d
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
+  Eigen::VectorXd nu_;    // D, then L^-1 nu
+
+  // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last joined.
+  Eigen::Vector2d pending_phi_ = Eigen::Vector2d::Zero();
+  bool pending_ = false;
+  Pose2 linearization_pose_;  // the predicted pose, x_{k|k-1}
+
+  ThreadTeam team_;
+};
+
+}  // namespace waymark::ekf

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "waymark/association/gate.hpp"
+#include "waymark/association/id_index.hpp"
+#include "waymark/core/filter.hpp"
+#include "waymark/core/function_blocks.hpp"
+#include "waymark/fastslam/landmark_store.hpp"
+#include "waymark/fastslam/landmark_update.hpp"
+#include "waymark/fastslam/particles.hpp"
+
+namespace waymark {
+
+struct FastSlamOptions {
+  int particles = 150;
+  double resample_below = 0.5;   ///< resample when N_eff falls below this part of the particles
+  double temper_below = 0.1;     ///< flatten weights when N_eff would fall below this part of the particles
+  double noise_inflation = 1.0;  ///< on the standard deviations of observations
+  int capacity = 1000;           ///< most landmarks in the map
+};
+
+void describe(Schema& schema, FastSlamOptions& options);
+
+/// FastSLAM 1.0 (Montemerlo et al. 2002) over range-bearing sightings of 2-D landmarks with known identities.
+/// Motion is collected until something is seen, then every particle draws from it.
+///
+/// Robust where the plain filter starves:
+/// * An observation is gated by the whole set, not particle by particle. A set that refuses several in a row
+/// is itself
+///   what is wrong, and has to accept again.
+/// * Weights are never allowed to collapse onto a few particles: they are flattened to keep `temper_below`.
+/// * The pose and its covariance are taken after weighting and before resampling.
+/// * A robot that stands still is neither predicted nor resampled.
+class FastSlam final : public Filter {
+ public:
+  /// `initial` is where the robot is believed to start. Same seed, same bits, whatever the number of threads.
+  FastSlam(const FastSlamOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor,
+           std::uint64_t seed, int threads = 1, const PoseEstimate& initial = {});
+
+  /// O(1); a motion that is not finite is ignored.
+  void predict(const Motion& motion) override;
+  const Correction& correct(std::span<const Observation> observations) override;
+  [[nodiscard]] PoseEstimate pose() const override;
+  [[nodiscard]] Snapshot snapshot() const override;
+  [[nodiscard]] MapState save() const override;
+  [[nodiscard]] const FunctionBlocks& blocks() const override { return table_; }
+
+  [[nodiscard]] const fastslam::Particles& particles() const { return particles_; }
+  /// How often the set was resampled.
+  [[nodiscard]] std::int64_t resamplings() const { return resamplings_; }
+
+ private:
+  struct Landmark {
+    LandmarkId id;
+    int observations = 0;
+  };
+
+  void associate(std::span<const Observation> observations);
+  [[nodiscard]] Outcome screen(std::size_t index, const Observation& observation) const;
+  void move_particles();
+  void update(std::span<const Observation> observations);
+  void compare(const Observation& observation, Innovation& innovation);
+  void judge(const fastslam::InnovationMoments& moments, Innovation& innovation);
+  void weigh();
+  void resample();
+  void add(std::span<const Observation> observations);
+
+  [[nodiscard]] fastslam::Sighting sighting(const Observation& observation) const;
+  [[nodiscard]] bool any(Outcome outcome) const;
+  [[nodiscard]] std::span<const double> weights() const;
+  [[nodiscard]] LandmarkEstimate landmark(int index) const;
+  [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot,
+                                                 const Eigen::VectorXd& landmarks) const;
+
+  FastSlamOptions options_;
+  Gate gate_;
+  Pose2 T_robot_sensor_;
+  std::uint64_t seed_;
+
+  fastslam::ParticleBlocks particle_blocks_;
+  fastslam::Particles particles_;
+  fastslam::LandmarkStore store_;
+  AlignedArray<double> log_likelihood_;
+  AlignedArray<std::int32_t> ancestors_;
+  IdIndex index_;
+  std::vector<Landmark> landmarks_;  // by index in the store
+
+  PoseEstimate estimate_;  // of the particles, after weighting and before resampling
+  Motion pending_;         // since the particles were last moved
+  bool moved_ = false;     // since the last correct()
+  std::uint64_t step_ = 0;
+  std::int64_t resamplings_ = 0;
+  int gated_in_a_row_ = 0;
+
+  std::vector<Innovation> innovations_;
+  Correction correction_;
+  FunctionBlocks table_{"associate", "predict", "update", "estimate", "resample", "add"};
+};
+
+}  // namespace waymark

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "waymark/core/config.hpp"
+#include "waymark/core/observation.hpp"
+#include "waymark/core/pose2.hpp"
+#include "waymark/core/stamp.hpp"
+
+namespace waymark {
+
+/// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
+struct LandmarkSensor {
+  double x_m = 0.0;  ///< ahead of the robot's origin
+  double y_m = 0.0;  ///< left of it
+  double yaw_deg = 0.0;
+  double range_sigma_m = 0.05;
+  double range_sigma_ratio = 0.0;  ///< further range error per metre of range
+  double bearing_sigma_deg = 1.0;
+  double min_range_m = 0.0;
+  double max_range_m = 1000.0;
+  double field_of_view_deg = 360.0;
+  double delay_s = 0.0;  ///< how much later than the sighting its stamp is
+
+  [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
+};
+
+void describe(Schema& schema, LandmarkSensor& sensor);
+
+/// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
+/// values use (0, 0)); zero for a kind that this sensor does not measure.
+[[nodiscard]] Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement);
+
+/// Finite, and a range within the sensor's limits.
+[[nodiscard]] bool is_usable(const LandmarkSensor& sensor, const Measurement& measurement);
+
+}  // namespace waymark

@@ -1,0 +1,118 @@
+#include "waymark/models/odometry.hpp"
+
+#include <cmath>
+
+namespace waymark {
+namespace {
+
+/// k(dth) = sin(dth/2)/(dth/2) and its derivative; series near zero where the quotient loses digits.
+struct ChordRatio {
+  double value;
+  double derivative;
+};
+
+ChordRatio chord_ratio(double turn_rad, ArcModel model) {
+  if (model == ArcModel::kArticle) return {1.0, 0.0};
+  if (std::abs(turn_rad) < 1e-4) return {1.0 - turn_rad * turn_rad / 24.0, -turn_rad / 12.0};
+  const double k = std::sin(0.5 * turn_rad) / (0.5 * turn_rad);
+  return {k, (std::cos(0.5 * turn_rad) - k) / turn_rad};
+}
+
+ArcStep scaled(ArcStep step, const OdometryOptions& options) {
+  return {options.speed_scale * step.distance_m, options.turn_scale * step.turn_rad};
+}
+
+/// Slip in distance and turn goes the way of the arc itself, so that a turn error moves the end point too; lateral slip
+/// stands across the chord.
+Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
+  const double distance = std::abs(step.distance_m);
+  const double turn = std::abs(step.turn_rad);
+  Eigen::Matrix3d S;
+  S.leftCols<2>() = arc_jacobian(step, model);
+  S.col(2) << -std::sin(0.5 * step.turn_rad), std::cos(0.5 * step.turn_rad), 0.0;
+  const Eigen::Vector3d variances(noise.forward_var_m2_per_m * distance,
+                                  noise.turn_var_rad2_per_rad * turn + noise.turn_var_rad2_per_m * distance,
+                                  noise.lateral_var_m2_per_m * distance);
+  return S * variances.asDiagonal() * S.transpose();
+}
+
+}  // namespace
+
+void describe(Schema& schema, OdometryOptions& o) {
+  schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0}, "radius of the left wheel, m; 0: the log says");
+  schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0}, "radius of the right wheel, m; 0: the log says");
+  schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0}, "distance between the wheels, m; 0: the log says");
+  schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0}, "error variance of each wheel per metre it rolls");
+  schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0}, "forward slip variance per metre driven");
+  schema.real("motion.lateral_var_m2_per_m", o.noise.lateral_var_m2_per_m, {0.0, 1.0}, "sideways slip variance per metre driven");
+  schema.real("motion.turn_var_rad2_per_rad", o.noise.turn_var_rad2_per_rad, {0.0, 10.0}, "turning error variance per radian turned");
+  schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0}, "turning error variance per metre driven");
+  schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
+  schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
+  schema.choice("motion.arc", o.arc, {"exact", "article"}, "chord of the exact arc, or k = 1 as in the 2012 article");
+}
+
+Result<void> check(const WheelGeometry& wheels) {
+  const auto missing = [](const char* key) {
+    return Error{std::string(key) + " is not known: give it in the log's log.yaml or with --set " + key + "=..."};
+  };
+  if (!(wheels.left_radius_m > 0.0)) return missing("wheels.left_radius_m");
+  if (!(wheels.right_radius_m > 0.0)) return missing("wheels.right_radius_m");
+  if (!(wheels.track_m > 0.0)) return missing("wheels.track_m");
+  return {};
+}
+
+Pose2 arc_increment(const ArcStep& step, ArcModel model) {
+  const double chord_m = step.distance_m * chord_ratio(step.turn_rad, model).value;
+  return {chord_m * std::cos(0.5 * step.turn_rad), chord_m * std::sin(0.5 * step.turn_rad), wrap_angle(step.turn_rad)};
+}
+
+Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
+  const double c = std::cos(0.5 * step.turn_rad);
+  const double s = std::sin(0.5 * step.turn_rad);
+  const double ds = step.distance_m;
+  const auto [k, k1] = chord_ratio(step.turn_rad, model);
+  return Eigen::Matrix<double, 3, 2>{
+      {k * c, ds * (k1 * c - 0.5 * k * s)}, {k * s, ds * (k1 * s + 0.5 * k * c)}, {0.0, 1.0}};
+}
+
+ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels) {
+  const double left_m = wheels.left_radius_m * increment.left_rad;
+  const double right_m = wheels.right_radius_m * increment.right_rad;
+  return {0.5 * (right_m + left_m), (right_m - left_m) / wheels.track_m};
+}
+
+Eigen::Matrix2d wheel_jacobian(const WheelGeometry& wheels) {
+  return Eigen::Matrix2d{{0.5 * wheels.left_radius_m, 0.5 * wheels.right_radius_m},
+                         {-wheels.left_radius_m / wheels.track_m, wheels.right_radius_m / wheels.track_m}};
+}
+
+Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options) {
+  const WheelGeometry& wheels = options.wheels;
+  const ArcStep step = scaled(wheel_step(increment, wheels), options);
+  const Eigen::Vector2d scale(options.speed_scale, options.turn_scale);
+  const Eigen::Vector2d radius_m(wheels.left_radius_m, wheels.right_radius_m);
+  const Eigen::Vector2d travel_m = radius_m.cwiseProduct(Eigen::Vector2d(increment.left_rad, increment.right_rad));
+  const Eigen::Vector2d angle_var = options.noise.wheel_var_m2_per_m * travel_m.cwiseAbs().cwiseQuotient(radius_m.cwiseAbs2());
+  const Eigen::Matrix<double, 3, 2> V = arc_jacobian(step, options.arc) * scale.asDiagonal() * wheel_jacobian(wheels);
+  const Eigen::Matrix3d Q = V * angle_var.asDiagonal() * V.transpose();
+  return {arc_increment(step, options.arc), Q + slip_covariance(step, options.noise, options.arc)};
+}
+
+Motion velocity_motion(const Velocity& velocity, double dt_s, const OdometryOptions& options) {
+  const ArcStep step = scaled({velocity.v_mps * dt_s, velocity.w_radps * dt_s}, options);
+  return {arc_increment(step, options.arc), slip_covariance(step, options.noise, options.arc)};
+}
+
+Motion odometry_pose_motion(const Pose2& T_odom_before, const Pose2& T_odom_after, const OdometryOptions& options) {
+  const Pose2 moved = T_odom_before.inverse() * T_odom_after;
+  // The noise grows with the arc, of which only the chord is known.
+  const double chord_m = std::copysign(moved.position().norm(), moved.x_m);
+  const double arc_m = chord_m / chord_ratio(moved.theta_rad, options.arc).value;
+  const ArcStep step = scaled({arc_m, moved.theta_rad}, options);
+  const Pose2 increment{options.speed_scale * moved.x_m, options.speed_scale * moved.y_m,
+                        wrap_angle(step.turn_rad)};
+  return {increment, slip_covariance(step, options.noise, options.arc)};
+}
+
+}  // namespace waymark

@@ -1,0 +1,204 @@
+#include "waymark/report/metrics.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "waymark/slam/make_filter.hpp"
+
+namespace waymark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name(FilterKind kind) { return kind == FilterKind::kEkf ? "ekf" : "fastslam"; }
+
+/// The value in force, under the name that the config file has for it.
+std::string setting(const Config& config, const char* key) {
+  Config copy = config;
+  return describe(copy).value(key);
+}
+
+double micros(Duration d) { return 1e6 * to_seconds(d); }
+
+/// Four significant digits below a thousand are more than any of these figures deserve; NaN cannot be written.
+Json rounded(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(value), 1e-12))) - 5.0);
+  return std::stod(fmt::format("{:.10g}", std::round(value / unit) * unit));
+}
+
+void put(Json& json, const char* key, const std::optional<double>& value) {
+  if (value) json[key] = rounded(*value);
+}
+
+Json blocks_json(const Metrics& metrics) {
+  Json blocks = Json::array();
+  for (const auto& row : metrics.blocks) {
+    const double total_us = micros(row.total);
+    blocks.push_back({{"name", row.name},
+                      {"calls", row.calls},
+                      {"mean_us", rounded(row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0)},
+                      {"per_frame_us", rounded(metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0)}});
+  }
+  return blocks;
+}
+
+Json relative_json(const std::vector<eval::RelativeError>& relative) {
+  Json rows = Json::array();
+  for (const auto& error : relative) {
+    Json row{{"distance_m", error.distance_m}, {"count", error.count}};
+    put(row, "position_rmse_m", error.position_rmse_m);
+    if (error.heading_rmse_rad) row["heading_rmse_deg"] = rounded(to_degrees(*error.heading_rmse_rad));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json truth_json(const eval::Evaluation& e) {
+  Json truth = Json::object();
+  put(truth, "position_rmse_m", e.path.position_rmse_m);
+  put(truth, "position_rmse_aligned_m", e.path.position_rmse_aligned_m);
+  put(truth, "heading_rmse_deg", e.path.heading_rmse_deg);
+  put(truth, "final_error_m", e.path.final_error_m);
+  if (e.map) {
+    put(truth, "landmark_rmse_m", e.map->rmse_m);
+    put(truth, "landmark_rmse_self_m", e.map->rmse_self_m);
+    truth["landmarks_missed"] = e.map->missed;
+    truth["landmarks_spurious"] = e.map->spurious;
+    put(truth, "landmark_nees_per_dof", e.map->nees_per_dof);
+  }
+  put(truth, "nees_mean", e.nees.mean);
+  put(truth, "nees_median", e.nees.median);
+  put(truth, "odometry_position_rmse_m", e.odometry.position_rmse_m);
+  put(truth, "odometry_position_rmse_aligned_m", e.odometry.position_rmse_aligned_m);
+  put(truth, "odometry_final_error_m", e.odometry.final_error_m);
+  put(truth, "path_m", e.path_m);
+  truth["samples"] = e.pairs;
+  if (e.fit) put(truth, "scale", e.fit->scale);
+  if (!e.relative.empty()) truth["relative"] = relative_json(e.relative);
+  return truth;
+}
+
+std::string line(const std::string& what, const std::optional<double>& value, const char* unit, const std::string& more = "") {
+  return value ? fmt::format("  {:<30}{:>9.3f} {}{}\n", what, *value, unit, more) : std::string();
+}
+
+}  // namespace
+
+StepTimes step_times(const std::vector<Recording::TimedCost>& steps) {
+  if (steps.empty()) return {};
+  std::vector<double> us;
+  us.reserve(steps.size());
+  double sum = 0.0;
+  for (const auto& step : steps) sum += us.emplace_back(micros(step.cpu));
+  std::ranges::sort(us);
+  const auto quantile = [&us](double q) {
+    return us[std::min(us.size() - 1, static_cast<std::size_t>(q * static_cast<double>(us.size())))];
+  };
+  return {sum / static_cast<double>(us.size()), quantile(0.5), quantile(0.99), quantile(0.999), us.back()};
+}
+
+std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations) {
+  double nis = 0.0;
+  double dof = 0.0;
+  for (const auto& [stamp, innovation] : innovations) {
+    if (innovation.outcome != Outcome::kMatched) continue;
+    nis += innovation.nis;
+    dof += innovation.dof;
+  }
+  return dof > 0.0 ? std::optional(nis / dof) : std::nullopt;
+}
+
+double peak_rss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+Metrics make_metrics(const std::string& input, const Config& config, const Recording& recording,
+                     const std::optional<eval::Evaluation>& truth) {
+  Metrics metrics;
+  metrics.input = input;
+  metrics.filter = name(config.filter);
+  metrics.observe = setting(config, "observe");
+  metrics.associate = setting(config, "associate");
+  metrics.seed = config.seed;
+  if (!recording.trajectory.empty())
+    metrics.duration_s = to_seconds(recording.trajectory.back().stamp - recording.trajectory.front().stamp);
+  metrics.events = recording.counts.events;
+  metrics.observations = recording.counts.observations;
+  metrics.landmarks = recording.filter->snapshot().landmarks.size();
+  metrics.wall_s = to_seconds(recording.wall);
+  metrics.realtime_factor = metrics.wall_s > 0.0 ? metrics.duration_s / metrics.wall_s : 0.0;
+  metrics.steps = step_times(recording.steps);
+  const auto rows = recording.filter->blocks().rows();
+  metrics.blocks.assign(rows.begin(), rows.end());
+  metrics.frames = recording.steps.size();
+  metrics.peak_rss_mb = peak_rss_mb();
+  metrics.nis_per_dof = nis_per_dof(recording.innovations);
+  metrics.truth = truth;
+  return metrics;
+}
+
+std::string to_json(const Metrics& m) {
+  Json json{{"input", m.input},
+            {"filter", m.filter},
+            {"observe", m.observe},
+            {"associate", m.associate},
+            {"seed", m.seed},
+            {"duration_s", rounded(m.duration_s)},
+            {"events", m.events},
+            {"observations", m.observations},
+            {"landmarks", m.landmarks},
+            {"wall_s", rounded(m.wall_s)},
+            {"realtime_factor", rounded(m.realtime_factor)},
+            {"step_us",
+             {{"mean", rounded(m.steps.mean_us)},
+              {"p50", rounded(m.steps.p50_us)},
+              {"p99", rounded(m.steps.p99_us)},
+              {"p999", rounded(m.steps.p999_us)},
+              {"max", rounded(m.steps.max_us)}}},
+            {"blocks", blocks_json(m)},
+            {"deadline_misses", m.deadline_misses},
+            {"peak_rss_mb", rounded(m.peak_rss_mb)}};
+  put(json, "nis_per_dof", m.nis_per_dof);
+  if (m.truth && (m.truth->pairs > 0 || m.truth->map)) json["truth"] = truth_json(*m.truth);
+  return json.dump(2) + "\n";
+}
+
+std::string truth_json_text(const eval::Evaluation& evaluation) { return truth_json(evaluation).dump(2) + "\n"; }
+
+std::string to_text(const eval::Evaluation& e) {
+  const auto against = [](const std::optional<double>& odometry) {
+    return odometry ? fmt::format("   (odometry alone {:.3f} m)", *odometry) : std::string();
+  };
+  std::string text = line("position RMSE, from start", e.path.position_rmse_m, "m", against(e.odometry.position_rmse_m));
+  text += line("position RMSE, aligned", e.path.position_rmse_aligned_m, "m", against(e.odometry.position_rmse_aligned_m));
+  text += line("heading RMSE", e.path.heading_rmse_deg, "deg");
+  text += line("final error", e.path.final_error_m, "m", against(e.odometry.final_error_m));
+  if (e.map) {
+    text += line("landmark RMSE, with the path", e.map->rmse_m, "m");
+    text += line("landmark RMSE, by themselves", e.map->rmse_self_m, "m");
+  }
+  text += line("pose NEES, median (ideal 2.4)", e.nees.median, "");
+  for (const auto& relative : e.relative)
+    if (relative.position_rmse_m)
+      text += line(fmt::format("drift over {:.0f} m", relative.distance_m), relative.position_rmse_m, "m");
+  for (const auto& note : e.notes) text += fmt::format("  note: {}\n", note);
+  return text;
+}
+
+std::string to_text(const Metrics& m) {
+  std::string text = fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
+                                 m.filter, m.duration_s, m.wall_s, m.realtime_factor, m.observations, m.landmarks);
+  if (m.truth) text += to_text(*m.truth);
+  text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
+  text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));
+  return text;
+}
+
+}  // namespace waymark

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "waymark/core/function_blocks.hpp"
+#include "waymark/eval/evaluate.hpp"
+#include "waymark/slam/recording.hpp"
+
+namespace waymark {
+
+/// Step times as thread CPU time from one correction to the next, us.
+struct StepTimes {
+  double mean_us = 0.0;
+  double p50_us = 0.0;
+  double p99_us = 0.0;
+  double p999_us = 0.0;
+  double max_us = 0.0;
+};
+
+[[nodiscard]] StepTimes step_times(const std::vector<Recording::TimedCost>& steps);
+
+/// One run in figures: what metrics.json holds.
+struct Metrics {
+  std::string input;
+  std::string filter;
+  std::string observe;
+  std::string associate;
+  std::uint64_t seed = 0;
+  double duration_s = 0.0;
+  std::int64_t events = 0;
+  std::int64_t observations = 0;
+  std::size_t landmarks = 0;
+  double wall_s = 0.0;
+  double realtime_factor = 0.0;
+  StepTimes steps;
+  std::vector<FunctionBlocks::Row> blocks;
+  std::size_t frames = 0;  ///< steps with a correction
+  std::int64_t deadline_misses = 0;
+  double peak_rss_mb = 0.0;
+  std::optional<double> nis_per_dof;  ///< over accepted observations; ideal 1
+  std::optional<eval::Evaluation> truth;
+};
+
+/// `wall_s` covers what the caller says: the run alone, or reading and evaluation with it.
+[[nodiscard]] Metrics make_metrics(const std::string& input, const Config& config, const Recording& recording,
+                                   const std::optional<eval::Evaluation>& truth);
+
+/// The mean NIS per degree of freedom of the observations that were used.
+[[nodiscard]] std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations);
+
+/// metrics.json, keys in a fixed order. What is not known is left out.
+[[nodiscard]] std::string to_json(const Metrics& metrics);
+
+/// The `truth` part of it alone.
+[[nodiscard]] std::string truth_json_text(const eval::Evaluation& evaluation);
+
+/// The same for people, a few lines.
+[[nodiscard]] std::string to_text(const Metrics& metrics);
+[[nodiscard]] std::string to_text(const eval::Evaluation& evaluation);
+
+/// The largest memory that the process held so far, MB.
+[[nodiscard]] double peak_rss_mb();
+
+}  // namespace waymark

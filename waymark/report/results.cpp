@@ -1,0 +1,63 @@
+#include "waymark/report/results.hpp"
+
+#include "waymark/io/files.hpp"
+#include "waymark/io/map_files.hpp"
+#include "waymark/io/tum.hpp"
+#include "waymark/report/report.hpp"
+#include "waymark/report/run_report.hpp"
+
+namespace waymark {
+namespace {
+
+Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  auto writer = TumWriter::open(path);
+  if (!writer) return writer.error();
+  for (const auto& point : trajectory) writer->write(point.stamp, point.pose);
+  return writer->close();
+}
+
+Result<void> write_maps(const RunResult& result, const std::filesystem::path& folder) {
+  const Stamp stamp = result.recording.trajectory.empty() ? Stamp{} : result.recording.trajectory.back().stamp;
+  Snapshot snapshot = result.recording.filter->snapshot();
+  snapshot.stamp = stamp;
+  if (auto written = write_map_csv(folder / "map.csv", snapshot); !written) return written;
+  MapState map = result.recording.filter->save();
+  map.stamp = stamp;
+  map.made_by = result.metrics.filter + " on " + result.input;
+  return write_map(folder / "map.waymark", map);
+}
+
+}  // namespace
+
+Result<RunResult> run_log(const std::string& input, const UserSettings& user, const TimeSpan& span,
+                          const std::function<bool(double)>& keep_going) {
+  auto opened = open_input(input, user);
+  if (!opened) return opened.error();
+  auto recording = record(*opened->source, opened->config, span, keep_going);
+  if (!recording) return recording.error();
+  RunResult result{input, opened->config, opened->source->info(), std::move(*recording), {}, {}, {}};
+  std::vector<eval::TruthSample> samples;
+  for (const auto& [stamp, truth] : result.recording.truth) samples.push_back({stamp, truth});
+  result.truth = eval::TruthTrack(std::move(samples));
+  if (!result.truth.empty() || !result.log.landmarks.empty()) {
+    eval::EvaluateOptions options;
+    if (result.log.truth_sensor_m) options.associate.truth_sensor_m = *result.log.truth_sensor_m;
+    const auto map = result.recording.filter->snapshot().landmarks;
+    result.evaluation = eval::evaluate(result.recording.trajectory, map, result.truth, result.log.landmarks,
+                                       result.recording.dead_reckoning, options);
+  }
+  result.metrics = make_metrics(input, result.config, result.recording, result.evaluation);
+  return result;
+}
+
+Result<void> write_results(const RunResult& result, const std::filesystem::path& folder, const std::string& command) {
+  if (auto made = ensure_output_folder(folder); !made) return made;
+  if (auto written = write_trajectory(folder / "trajectory.tum", result.recording.trajectory); !written) return written;
+  if (auto written = write_maps(result, folder); !written) return written;
+  Config config = result.config;
+  if (auto written = write_file(folder / "config.yaml", describe(config).to_yaml()); !written) return written;
+  if (auto written = write_file(folder / "metrics.json", to_json(result.metrics)); !written) return written;
+  return write_report(make_report(result, command), folder / "report.html");
+}
+
+}  // namespace waymark

@@ -1,0 +1,198 @@
+#include "waymark/sim/options.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace waymark::sim {
+namespace {
+
+constexpr Limits kProbability{0.0, 1.0};
+constexpr Limits kVariance{0.0, 1.0};
+
+void describe(Schema& schema, PathOptions& o) {
+  schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random"},
+                "closed path of one lap");
+  schema.real("sim.side_m", o.side_m, {0.5, 1000.0}, "side of the square that the path fits into");
+  schema.integer("sim.laps", o.laps, {1, 1000}, "times round the path");
+  schema.integer("sim.waypoints", o.waypoints, {3, 1000}, "corners of a random path");
+  schema.real("sim.corner_radius_m", o.corner_radius_m, {0.0, 100.0},
+              "radius of the corners; 0: the robot turns on the spot");
+  schema.real("sim.speed_mps", o.speed_mps, {0.01, 10.0}, "speed on straight lines");
+  schema.real("sim.turn_rate_max_degps", o.turn_rate_max_degps, {1.0, 720.0}, "fastest planned turn");
+}
+
+void describe(Schema& schema, WorldOptions& o) {
+  schema.integer("sim.landmarks", o.landmarks, {0, 10000}, "landmarks in the world");
+  schema.real("sim.landmark_min_offset_m", o.min_offset_m, {0.0, 100.0},
+              "least distance of a landmark from the path");
+  schema.real("sim.landmark_max_offset_m", o.max_offset_m, {0.1, 100.0},
+              "largest distance of a landmark from the path");
+  schema.real("sim.landmark_separation_m", o.separation_m, {0.0, 100.0},
+              "wanted distance between landmarks; halved as often as it takes to find room");
+}
+
+void describe(Schema& schema, WheelOptions& o) {
+  schema.choice("sim.odometry", o.odometry, {"wheels", "velocity", "pose"},
+                "how the log states the odometry");
+  schema.real("sim.odometry_rate_hz", o.rate_hz, {1.0, 1000.0}, "odometry readings per second");
+  schema.real("sim.wheel_radius_m", o.radius_m, {0.001, 10.0}, "radius of both wheels");
+  schema.real("sim.wheel_track_m", o.track_m, {0.01, 10.0}, "distance between the wheels");
+  schema.real("sim.wheel_var_m2_per_m", o.var_m2_per_m, kVariance,
+              "encoder error variance per wheel and metre rolled");
+  schema.real("sim.slip_forward_var_m2_per_m", o.slip_forward_var_m2_per_m, kVariance,
+              "forward slip variance per metre driven");
+  schema.real("sim.slip_lateral_var_m2_per_m", o.slip_lateral_var_m2_per_m, kVariance,
+              "sideways slip variance per metre driven");
+  schema.real("sim.slip_turn_var_rad2_per_rad", o.slip_turn_var_rad2_per_rad, kVariance,
+              "heading slip variance per radian turned");
+  schema.real("sim.slip_turn_var_rad2_per_m", o.slip_turn_var_rad2_per_m, kVariance,
+              "heading slip variance per metre driven");
+}
+
+void describe(Schema& schema, SensorOptions& o) {
+  schema.choice("sim.observe", o.observe, {"range-bearing", "range", "bearing"}, "what the sensor measures");
+  schema.real("sim.sensor_rate_hz", o.rate_hz, {0.1, 1000.0}, "scans per second");
+  schema.real("sim.sensor_x_m", o.x_m, {-10.0, 10.0}, "sensor on the robot, forward");
+  schema.real("sim.sensor_y_m", o.y_m, {-10.0, 10.0}, "sensor on the robot, to the left");
+  schema.real("sim.sensor_yaw_deg", o.yaw_deg, {-180.0, 180.0},
+              "sensor on the robot, turned counter-clockwise");
+  schema.real("sim.range_min_m", o.range_min_m, {0.0, 1000.0}, "nearest landmark that is seen");
+  schema.real("sim.range_max_m", o.range_max_m, {0.01, 1000.0}, "farthest landmark that is seen");
+  schema.real("sim.field_of_view_deg", o.field_of_view_deg, {0.1, 360.0},
+              "full angle, half of it on either side");
+  schema.real("sim.range_sigma_m", o.range_sigma_m, {0.0, 10.0}, "range noise");
+  schema.real("sim.range_sigma_ratio", o.range_sigma_ratio, {0.0, 1.0},
+              "further range noise per metre of range");
+  schema.real("sim.bearing_sigma_deg", o.bearing_sigma_deg, {0.0, 90.0}, "bearing noise");
+  schema.real("sim.drop_probability", o.drop_probability, kProbability,
+              "chance that a visible landmark is not reported");
+  schema.real(
+      "sim.false_probability", o.false_probability, kProbability,
+      "chance per scan of a sighting where nothing stands, half of them with the identity of a landmark");
+  schema.real("sim.misread_probability", o.misread_probability, kProbability,
+              "chance that a sighting bears the identity of another landmark");
+  schema.boolean("sim.identities", o.identities, "sightings say which landmark they are of");
+}
+
+void describe(Schema& schema, TruthOptions& o) {
+  schema.real("sim.truth_rate_hz", o.rate_hz, {0.0, 1000.0},
+              "true poses per second; 0: only where a corner is reached");
+  schema.boolean("sim.truth_heading", o.heading, "true poses state their heading");
+}
+
+SimOptions shaped(Shape shape) {
+  SimOptions options;
+  options.path.shape = shape;
+  return options;
+}
+
+// Every number of the study stands here, so that no default can move it. The wheels are calibrated by
+// tests/sim/simulation_test.cpp, StudyDriftsByOnePointSixMetresPerLap.
+SimOptions study() {
+  return {
+      .path = {.shape = Shape::kSquare,
+               .side_m = 6.0,
+               .laps = 2,
+               .waypoints = 8,
+               .corner_radius_m = 0.0,
+               .speed_mps = 0.3,
+               .turn_rate_max_degps = 45.0},
+      .world = {.landmarks = 24, .min_offset_m = 1.0, .max_offset_m = 3.0, .separation_m = 0.5},
+      .wheels = {.odometry = OdometryKind::kWheels,
+                 .rate_hz = 50.0,
+                 .radius_m = 0.0975,
+                 .track_m = 0.331,
+                 .var_m2_per_m = 2.9e-4,
+                 .slip_forward_var_m2_per_m = 1e-4,
+                 .slip_lateral_var_m2_per_m = 1e-4,
+                 .slip_turn_var_rad2_per_rad = 1e-3,
+                 .slip_turn_var_rad2_per_m = 1e-4},
+      .sensor = {.observe = Observe::kRangeBearing,
+                 .rate_hz = 15.0,
+                 .x_m = 0.0,
+                 .y_m = 0.0,
+                 .yaw_deg = 0.0,
+                 .range_min_m = 0.336,
+                 .range_max_m = 5.36,
+                 .field_of_view_deg = 49.56,
+                 .range_sigma_m = 0.05,
+                 .range_sigma_ratio = 0.0,
+                 .bearing_sigma_deg = 1.5,
+                 .drop_probability = 0.0,
+                 .false_probability = 0.0,
+                 .misread_probability = 0.0,
+                 .identities = true},
+      .truth = {.rate_hz = 10.0, .heading = true},
+  };
+}
+
+const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
+  static const std::vector<std::pair<std::string, SimOptions>> all{
+      {"square", shaped(Shape::kSquare)},
+      {"l-shape", shaped(Shape::kLShape)},
+      {"figure-eight", shaped(Shape::kFigureEight)},
+      {"random", shaped(Shape::kRandom)},
+      {"study", study()},
+  };
+  return all;
+}
+
+// The limits are those of the keys, so each value is set to itself.
+Result<void> validate_limits(SimOptions options) {
+  Schema schema;
+  describe(schema, options);
+  for (const std::string& key : schema.keys()) {
+    if (auto set = schema.set(key, schema.value(key), "simulation"); !set) return set;
+  }
+  return {};
+}
+
+}  // namespace
+
+void describe(Schema& schema, SimOptions& options) {
+  describe(schema, options.path);
+  describe(schema, options.world);
+  describe(schema, options.wheels);
+  describe(schema, options.sensor);
+  describe(schema, options.truth);
+}
+
+Result<void> validate(const SimOptions& options) {
+  if (auto limits = validate_limits(options); !limits) return limits;
+  const auto& [path, world, wheels, sensor, truth] = options;
+  if (world.max_offset_m < world.min_offset_m + 0.1) {
+    return Error{fmt::format(
+        "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",
+        world.max_offset_m, world.min_offset_m + 0.1)};
+  }
+  if (sensor.range_max_m <= sensor.range_min_m) {
+    return Error{
+        fmt::format("simulation: sim.range_max_m is {}; it must be above sim.range_min_m, which is {}",
+                    sensor.range_max_m, sensor.range_min_m)};
+  }
+  return {};
+}
+
+Result<SimOptions> scenario(std::string_view name) {
+  for (const auto& [known, options] : scenarios()) {
+    if (known == name) return options;
+  }
+  const std::string near = nearest_name(name, scenario_names());
+  return Error{fmt::format("unknown scenario '{}'{}; there are {}", name,
+                           near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
+                           fmt::join(scenario_names(), ", "))};
+}
+
+const std::vector<std::string>& scenario_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, options] : scenarios()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace waymark::sim

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "waymark/core/source.hpp"
+#include "waymark/sim/options.hpp"
+#include "waymark/sim/path.hpp"
+
+namespace waymark::sim {
+
+/// Landmarks at random places on both sides of the path, each between the two offsets from its nearest point,
+/// numbered from 0 in the marker family. The options must be valid. O(n^2) in the number of landmarks.
+[[nodiscard]] std::vector<TrueLandmark> place_landmarks(const WorldOptions& options, const Path& path,
+                                                        std::uint64_t seed);
+
+}  // namespace waymark::sim

@@ -1,0 +1,83 @@
+#include "waymark/slam/config.hpp"
+
+#include <string_view>
+
+#include "waymark/sim/simulation.hpp"
+
+namespace waymark {
+namespace {
+
+constexpr std::string_view kSimulationPrefix = "sim:";
+
+Result<void> apply(Schema& schema, const UserSettings& user) {
+  if (user.file)
+    if (auto done = schema.load_file(*user.file); !done) return done;
+  for (const auto& assignment : user.assignments)
+    if (auto done = schema.set_assignment(assignment, "--set"); !done) return done;
+  return {};
+}
+
+Result<void> apply(Schema& schema, const LogInfo& log) {
+  for (const auto& [key, value] : log.settings)
+    if (auto done = schema.set(key, value, log.name); !done) return done;
+  return {};
+}
+
+Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
+  if (input.starts_with(kSimulationPrefix)) return open_simulation(input.substr(kSimulationPrefix.size()), user);
+  auto config = resolve_config(user);
+  if (!config) return config.error();
+  return open_source(input, config->input);
+}
+
+}  // namespace
+
+Schema describe(Config& config) {
+  Schema schema;
+  schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
+  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing"}, "which part of the observations is used");
+  schema.choice("associate", config.associate, {"known"}, "how observations find their landmarks");
+  schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
+  schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
+  describe(schema, config.input);
+  describe(schema, config.odometry);
+  describe(schema, config.sensor);
+  describe(schema, config.pipeline);
+  describe(schema, config.gate);
+  describe(schema, config.ekf);
+  describe(schema, config.fastslam);
+  sim::describe(schema, config.sim);
+  return schema;
+}
+
+Result<Config> resolve_config(const UserSettings& user) {
+  Config config;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  return config;
+}
+
+Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, const UserSettings& user) {
+  auto world = sim::scenario(scenario);
+  if (!world) return world.error();
+  Config config;
+  config.sim = *world;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed);
+  if (!simulation) return simulation.error();
+  return std::unique_ptr<Source>(std::move(*simulation));
+}
+
+Result<OpenedInput> open_input(const std::string& input, const UserSettings& user) {
+  auto source = open(input, user);
+  if (!source) return source.error();
+  Config config;
+  if (input.starts_with(kSimulationPrefix)) config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
+  Schema schema = describe(config);
+  if (auto done = apply(schema, (*source)->info()); !done) return done.error();
+  if (auto done = apply(schema, user); !done) return done.error();
+  return OpenedInput{std::move(*source), config};
+}
+
+}  // namespace waymark

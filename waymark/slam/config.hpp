@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "waymark/association/gate.hpp"
+#include "waymark/core/config.hpp"
+#include "waymark/core/source.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+#include "waymark/fastslam/fast_slam.hpp"
+#include "waymark/io/open_source.hpp"
+#include "waymark/models/landmark_sensor.hpp"
+#include "waymark/models/odometry.hpp"
+#include "waymark/sim/options.hpp"
+#include "waymark/slam/pipeline.hpp"
+
+namespace waymark {
+
+enum class FilterKind { kEkf, kFastSlam };
+enum class Association { kKnown };
+
+/// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the result.
+struct Config {
+  FilterKind filter = FilterKind::kEkf;
+  Observe observe = Observe::kRangeBearing;
+  Association associate = Association::kKnown;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  InputOptions input;
+  OdometryOptions odometry;
+  LandmarkSensor sensor;
+  PipelineOptions pipeline;
+  GateOptions gate;
+  EkfOptions ekf;
+  FastSlamOptions fastslam;
+  sim::SimOptions sim;
+};
+
+/// All keys. The schema refers to `config`, which must outlive it and stay where it is.
+[[nodiscard]] Schema describe(Config& config);
+
+/// What the user wants changed: a file, then single keys, the later ones winning.
+struct UserSettings {
+  std::optional<std::filesystem::path> file;
+  std::vector<std::string> assignments;  ///< "key=value"
+};
+
+/// A log, opened, with the config that holds for it.
+struct OpenedInput {
+  std::unique_ptr<Source> source;
+  Config config;
+};
+
+/// Opens a log folder, a data set or `sim:SCENARIO`, and settles the config: defaults, then what the log knows about
+/// its robot, then what the user says.
+[[nodiscard]] Result<OpenedInput> open_input(const std::string& input, const UserSettings& user);
+
+/// The config alone: defaults, then what the user says.
+[[nodiscard]] Result<Config> resolve_config(const UserSettings& user);
+
+/// The simulated world of a scenario, changed by the user's `sim.` keys.
+[[nodiscard]] Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, const UserSettings& user);
+
+}  // namespace waymark

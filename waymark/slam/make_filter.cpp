@@ -1,0 +1,21 @@
+#include "waymark/slam/make_filter.hpp"
+
+namespace waymark {
+
+Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
+  const Pose2 T_robot_sensor = config.sensor.T_robot_sensor();
+  if (config.observe != Observe::kRangeBearing)
+    return Error{"observe: only range-bearing can be filtered so far"};
+  switch (config.filter) {
+    case FilterKind::kEkf:
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor, config.threads));
+    case FilterKind::kFastSlam:
+      return std::unique_ptr<Filter>(
+          std::make_unique<FastSlam>(config.fastslam, config.gate, T_robot_sensor, config.seed, config.threads));
+  }
+  return Error{"filter: unknown"};
+}
+
+const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
+
+}  // namespace waymark

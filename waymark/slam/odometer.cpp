@@ -1,0 +1,100 @@
+#include "waymark/slam/odometer.hpp"
+
+#include <algorithm>
+
+namespace waymark {
+namespace {
+
+WheelAngles interpolate(const WheelAngles& a, const WheelAngles& b, double fraction) {
+  return {a.left_rad + fraction * (b.left_rad - a.left_rad), a.right_rad + fraction * (b.right_rad - a.right_rad)};
+}
+
+template <class Value>
+Value between(const std::pair<Stamp, Value>& a, const std::pair<Stamp, Value>& b, Stamp stamp) {
+  return interpolate(a.second, b.second, to_seconds(stamp - a.first) / to_seconds(b.first - a.first));
+}
+
+/// The event's own content if it is of this kind.
+template <class Content>
+const Content* content_of(const Event* event) {
+  return event == nullptr ? nullptr : std::get_if<Content>(&event->content);
+}
+
+}  // namespace
+
+bool is_odometry(const EventContent& content) {
+  return std::holds_alternative<WheelAngles>(content) || std::holds_alternative<Velocity>(content) ||
+         std::holds_alternative<OdometryPose>(content);
+}
+
+template <class Value>
+void SampledTrack<Value>::add(Stamp stamp, const Value& value) {
+  if (last_ && last_->first < stamp) before_last_ = last_;
+  last_ = {stamp, value};
+}
+
+template <class Value>
+std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp, Value>* next, Duration max_hold) const {
+  if (!last_) return std::nullopt;
+  if (stamp <= last_->first) return last_->second;
+  if (next != nullptr && next->first > last_->first) return between(*last_, *next, stamp);
+  if (!before_last_) return last_->second;
+  return between(*before_last_, *last_, std::min(stamp, last_->first + max_hold));
+}
+
+Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
+    : options_(options), max_hold_(duration_from_seconds(max_hold_s)) {}
+
+Motion Odometer::advance(Stamp stamp, const Event* next) {
+  Motion motion;
+  if (velocity_) motion = advance_velocity(stamp);
+  if (wheels_now_) motion = advance_wheels(stamp, next);
+  if (pose_now_) motion = advance_pose(stamp, next);
+  now_ = stamp;
+  return motion;
+}
+
+Motion Odometer::advance_velocity(Stamp stamp) {
+  const Stamp held_until = velocity_stamp_ + max_hold_;
+  if (stamp > held_until && *now_ <= held_until) ++gaps_;
+  const Duration held = std::min(stamp, held_until) - *now_;
+  return held > Duration{0} ? velocity_motion(*velocity_, to_seconds(held), options_) : Motion{};
+}
+
+Motion Odometer::advance_wheels(Stamp stamp, const Event* next) {
+  std::optional<std::pair<Stamp, WheelAngles>> after;
+  if (const auto* angles = content_of<WheelAngles>(next)) after = {next->stamp, *angles};
+  const WheelAngles then = *wheels_now_;
+  wheels_now_ = wheel_track_.at(stamp, after ? &*after : nullptr, max_hold_);
+  return wheel_motion({wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad}, options_);
+}
+
+Motion Odometer::advance_pose(Stamp stamp, const Event* next) {
+  std::optional<std::pair<Stamp, Pose2>> after;
+  if (const auto* pose = content_of<OdometryPose>(next)) after = {next->stamp, pose->T_odom_robot};
+  const Pose2 then = *pose_now_;
+  pose_now_ = pose_track_.at(stamp, after ? &*after : nullptr, max_hold_);
+  return odometry_pose_motion(then, *pose_now_, options_);
+}
+
+bool Odometer::add(const Event& event) {
+  if (!kind_) kind_ = event.content.index();
+  if (*kind_ != event.content.index()) return false;
+  now_ = event.stamp;
+  if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
+    velocity_ = *velocity;
+    velocity_stamp_ = event.stamp;
+  } else if (const auto* wheels = std::get_if<WheelAngles>(&event.content)) {
+    wheel_track_.add(event.stamp, *wheels);
+    if (!wheels_now_) wheels_now_ = *wheels;
+  } else if (const auto* pose = std::get_if<OdometryPose>(&event.content)) {
+    pose_track_.add(event.stamp, pose->T_odom_robot);
+    if (!pose_now_) pose_now_ = pose->T_odom_robot;
+  }
+  return true;
+}
+
+template class SampledTrack<WheelAngles>;
+template class SampledTrack<Pose2>;
+
+}  // namespace waymark

@@ -1,0 +1,130 @@
+#include "waymark/slam/pipeline.hpp"
+
+#include <algorithm>
+
+#include "waymark/core/function_blocks.hpp"
+
+namespace waymark {
+namespace {
+
+/// The part of a measurement that is asked for, or nothing if it is not there.
+std::optional<Measurement> part(const Measurement& value, Observe observe) {
+  const auto* both = std::get_if<RangeBearing>(&value);
+  switch (observe) {
+    case Observe::kRangeBearing: return both != nullptr ? std::optional(value) : std::nullopt;
+    case Observe::kRange:
+      if (both != nullptr) return Range{both->range_m};
+      return std::holds_alternative<Range>(value) ? std::optional(value) : std::nullopt;
+    case Observe::kBearing:
+      if (both != nullptr) return Bearing{both->bearing_rad};
+      return std::holds_alternative<Bearing>(value) ? std::optional(value) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// A covariance that came with range and bearing, cut down to the part that is used.
+Eigen::Matrix2d part_covariance(const Observation& observation, const Measurement& used) {
+  Eigen::Matrix2d R = *observation.covariance;
+  if (std::holds_alternative<RangeBearing>(observation.value) && std::holds_alternative<Bearing>(used)) R(0, 0) = R(1, 1);
+  if (!std::holds_alternative<RangeBearing>(used)) R(0, 1) = R(1, 0) = R(1, 1) = 0.0;
+  return R;
+}
+
+}  // namespace
+
+void describe(Schema& schema, PipelineOptions& options) {
+  schema.real("pipeline.reorder_window_s", options.reorder_window_s, {0.0, 60.0}, "how late an event may arrive and still be put in its place, s");
+  schema.real("pipeline.max_hold_s", options.max_hold_s, {0.0, 3600.0}, "how long the last speed is believed when odometry is missing, s");
+}
+
+Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
+                   const LandmarkSensor& sensor, Observe observe, Sink sink)
+    : filter_(filter),
+      sensor_(sensor),
+      observe_(observe),
+      sink_(std::move(sink)),
+      odometer_(odometry, options.max_hold_s),
+      window_(duration_from_seconds(options.reorder_window_s)),
+      delay_(duration_from_seconds(sensor.delay_s)) {}
+
+void Pipeline::push(Event event) {
+  const bool observed = std::holds_alternative<Observations>(event.content);
+  if (!observed && !is_odometry(event.content)) return;
+  if (observed) event.stamp = event.stamp - delay_;
+  ++counts_.events;
+  if (processed_ && event.stamp < *processed_) {
+    ++counts_.late;
+    return;
+  }
+  insert(std::move(event));
+  while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
+}
+
+void Pipeline::finish() {
+  while (!waiting_.empty()) process_front_group();
+}
+
+/// Behind all events that are not later: nearly always at the end.
+void Pipeline::insert(Event event) {
+  auto place = waiting_.end();
+  while (place != waiting_.begin() && std::prev(place)->stamp > event.stamp) --place;
+  waiting_.insert(place, std::move(event));
+}
+
+const Event* Pipeline::next_odometry() const {
+  const auto found = std::ranges::find_if(waiting_, [](const Event& event) { return is_odometry(event.content); });
+  return found == waiting_.end() ? nullptr : &*found;
+}
+
+void Pipeline::process_front_group() {
+  const Stamp stamp = waiting_.front().stamp;
+  const Duration start = thread_cpu_time();
+  predict(stamp);
+  batch_.clear();
+  for (; !waiting_.empty() && waiting_.front().stamp == stamp; waiting_.pop_front()) {
+    const Event& event = waiting_.front();
+    if (const auto* observations = std::get_if<Observations>(&event.content)) {
+      collect(*observations);
+    } else {
+      odometry_seen_ = true;
+      counts_.other_odometry += odometer_.add(event) ? 0 : 1;
+    }
+  }
+  const Correction* correction = batch_.empty() ? nullptr : &filter_.correct(batch_);
+  Step step{stamp, filter_.pose(), dead_reckoning_, correction, {}};
+  cpu_since_correction_ += thread_cpu_time() - start;
+  if (correction != nullptr) step.cpu = std::exchange(cpu_since_correction_, Duration{0});
+  processed_ = stamp;
+  sink_(step);
+}
+
+void Pipeline::predict(Stamp stamp) {
+  const Motion motion = odometer_.advance(stamp, next_odometry());
+  if (is_still(motion)) return;
+  dead_reckoning_ = dead_reckoning_ * motion.increment;
+  filter_.predict(motion);
+}
+
+void Pipeline::collect(const Observations& observations) {
+  for (const Observation& observation : observations) {
+    ++counts_.observations;
+    counts_.before_odometry += odometry_seen_ ? 0 : 1;
+    const auto used = part(observation.value, observe_);
+    if (!used) {
+      ++counts_.wrong_kind;
+    } else if (!is_usable(sensor_, observation.value)) {
+      ++counts_.unusable;
+    } else {
+      const Eigen::Matrix2d R = observation.covariance ? part_covariance(observation, *used) : noise_covariance(sensor_, *used);
+      batch_.push_back({observation.id, *used, R});
+    }
+  }
+}
+
+PipelineCounts Pipeline::counts() const {
+  PipelineCounts counts = counts_;
+  counts.odometry_gaps = odometer_.gaps();
+  return counts;
+}
+
+}  // namespace waymark

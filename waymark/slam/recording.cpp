@@ -1,0 +1,99 @@
+#include "waymark/slam/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "waymark/slam/make_filter.hpp"
+
+namespace waymark {
+namespace {
+
+/// Counts of the pipeline as lines for a person.
+std::vector<std::string> describe_counts(const PipelineCounts& counts) {
+  std::vector<std::string> lines;
+  const auto note = [&lines](std::int64_t count, const char* what) {
+    if (count > 0) lines.push_back(fmt::format("{} {}", count, what));
+  };
+  note(counts.late, "events dropped: they came later than pipeline.reorder_window_s allows");
+  note(counts.unusable, "observations dropped: not finite or outside the sensor's range limits");
+  note(counts.wrong_kind, "observations dropped: they lack what `observe` asks for");
+  note(counts.other_odometry, "odometry events ignored: of a second kind");
+  note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
+  return lines;
+}
+
+std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInnovation>& innovations) {
+  std::vector<std::string> lines;
+  for (const Outcome outcome : {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kDuplicate, Outcome::kMapFull}) {
+    const auto count = std::ranges::count_if(innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
+    if (count > 0) lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
+  }
+  return lines;
+}
+
+/// Keeps what the pipeline reports.
+void keep(Recording& recording, const Step& step) {
+  recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
+  recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
+  if (step.correction == nullptr) return;
+  recording.steps.push_back({step.stamp, step.cpu});
+  for (const Innovation& innovation : step.correction->innovations) recording.innovations.push_back({step.stamp, innovation});
+}
+
+/// Feeds the source's events within the span to `accept`; the reason if reading broke off.
+std::optional<Error> read_all(Source& source, const TimeSpan& span, const std::function<bool(double)>& keep_going,
+                              const std::function<Result<void>(Event)>& accept) {
+  constexpr int kEventsPerQuestion = 256;
+  std::optional<Stamp> start;
+  for (std::int64_t count = 0;; ++count) {
+    if (keep_going && count % kEventsPerQuestion == 0 && !keep_going(source.progress()))
+      return Error{"stopped; the results up to here are kept", Error::Kind::kFailed};
+    auto event = source.next();
+    if (!event) return event.error();
+    if (!*event) return std::nullopt;
+    if (!start) start = (*event)->stamp;
+    const double elapsed_s = to_seconds((*event)->stamp - *start);
+    if (elapsed_s > span.to_s) return std::nullopt;
+    if (elapsed_s < span.from_s) continue;
+    if (auto accepted = accept(std::move(**event)); !accepted) return accepted.error();
+  }
+}
+
+/// Truth goes to the record, the rest to the pipeline; wheels of unknown size end the run.
+Result<void> route(Event event, const OdometryOptions& odometry, Recording& recording, Pipeline& pipeline) {
+  if (const auto* truth = std::get_if<Truth>(&event.content)) {
+    recording.truth.emplace_back(event.stamp, *truth);
+    return {};
+  }
+  if (std::holds_alternative<WheelAngles>(event.content))
+    if (auto known = check(odometry.wheels); !known) return known;
+  pipeline.push(std::move(event));
+  return {};
+}
+
+}  // namespace
+
+Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
+                         const std::function<bool(double)>& keep_going) {
+  auto filter = make_filter(config);
+  if (!filter) return filter.error();
+  Recording recording;
+  recording.filter = std::move(*filter);
+  Pipeline pipeline(*recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
+                    [&recording](const Step& step) { keep(recording, step); });
+  const auto start = std::chrono::steady_clock::now();
+  recording.error = read_all(source, span, keep_going, [&](Event event) {
+    return route(std::move(event), config.odometry, recording, pipeline);
+  });
+  pipeline.finish();
+  recording.wall = std::chrono::steady_clock::now() - start;
+  recording.counts = pipeline.counts();
+  recording.notes = source.notes();
+  std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
+  std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
+  return recording;
+}
+
+}  // namespace waymark

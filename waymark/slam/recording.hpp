@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "waymark/core/filter.hpp"
+#include "waymark/core/trajectory.hpp"
+#include "waymark/slam/config.hpp"
+
+namespace waymark {
+
+/// Everything a run leaves behind: what sinks (files, evaluation, report) read.
+struct Recording {
+  struct TimedInnovation {
+    Stamp stamp;
+    Innovation innovation;
+  };
+  struct TimedCost {
+    Stamp stamp;
+    Duration cpu;  ///< filter time of this thread from one correction to the next
+  };
+
+  Trajectory trajectory;      ///< causal, with covariance
+  Trajectory dead_reckoning;  ///< odometry alone, from the origin
+  std::vector<std::pair<Stamp, Truth>> truth;
+  std::vector<TimedInnovation> innovations;
+  std::vector<TimedCost> steps;
+  PipelineCounts counts;
+  std::vector<std::string> notes;  ///< what was skipped or odd, one line each
+  Duration wall{0};
+  std::unique_ptr<Filter> filter;  ///< as the last event left it
+  std::optional<Error> error;      ///< why reading stopped before the end; everything above holds up to there
+};
+
+/// The part of a log to run on, in seconds from its first event.
+struct TimeSpan {
+  double from_s = 0.0;
+  double to_s = 1e18;
+};
+
+/// Runs a log through the filter that `config` asks for. `keep_going` is asked now and then with the part of the log
+/// done; false stops the run, which keeps what it has.
+[[nodiscard]] Result<Recording> record(Source& source, const Config& config, const TimeSpan& span = {},
+                                       const std::function<bool(double)>& keep_going = {});
+
+}  // namespace waymark

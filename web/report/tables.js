@@ -1,0 +1,70 @@
+// Function blocks, all metrics, notes, and how to run it again.
+
+import { h, panel } from "./dom.js";
+import * as format from "./format.js";
+
+export function blockTable(blocks) {
+  const total = blocks.reduce((sum, block) => sum + (block.per_frame_us ?? 0), 0);
+  const rows = [...blocks].sort((a, b) => (b.per_frame_us ?? 0) - (a.per_frame_us ?? 0));
+  const share = (block) => (total > 0 ? (100 * (block.per_frame_us ?? 0)) / total : 0);
+  return panel("Function blocks", { note: "Where a step spends its time" },
+    h("div", { class: "scroll" }, h("table", { class: "blocks" },
+      h("thead", {}, h("tr", {}, h("th", {}, "Block"),
+        ["Calls", "Mean (µs)", "Per frame (µs)"].map((name) => h("th", { class: "num" }, name)),
+        h("th", { class: "share" }, "Share"))),
+      h("tbody", {}, rows.map((block) => h("tr", {},
+        h("th", { scope: "row" }, block.name),
+        h("td", { class: "num" }, format.count(block.calls)),
+        h("td", { class: "num" }, format.number(block.mean_us)),
+        h("td", { class: "num" }, format.number(block.per_frame_us)),
+        h("td", { class: "share" },
+          h("span", { class: "bar", style: `--share: ${share(block).toFixed(2)}%` }),
+          h("span", { class: "percent" }, `${format.fixed(share(block), share(block) < 10 ? 1 : 0)} %`))))),
+      h("tfoot", {}, h("tr", {}, h("th", { colspan: 3 }, "Together"),
+        h("td", { class: "num" }, format.number(total)), h("td", {}))))));
+}
+
+const SHOWN_ELSEWHERE = new Set(["blocks"]);
+const isGroup = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+
+function metricText(value) {
+  if (Number.isInteger(value)) return format.count(value);
+  if (typeof value === "number") return format.plain(value, 5);
+  if (value === null || value === undefined) return "–";
+  if (Array.isArray(value)) return value.map(metricText).join(value.some(isGroup) ? "\n" : ", ");
+  if (isGroup(value)) return Object.entries(value).map(([key, entry]) => `${key} ${metricText(entry)}`).join(", ");
+  return String(value);
+}
+
+// metrics.json as it is, one table per group; keys stay as they are since scripts read them.
+export function metricsTables(metrics) {
+  const entries = Object.entries(metrics).filter(([name]) => !SHOWN_ELSEWHERE.has(name));
+  const plain = entries.filter(([, value]) => !isGroup(value));
+  const groups = entries.filter(([, value]) => isGroup(value)).map(([name, value]) => [name, Object.entries(value)]);
+  const halves = plain.length > 10 ? [plain.slice(0, Math.ceil(plain.length / 2)), plain.slice(Math.ceil(plain.length / 2))]
+    : [plain];
+  const tables = [...halves.map((half, i) => [i ? "" : "run", half]), ...groups];
+  return panel("All metrics", { note: "As in metrics.json" },
+    h("div", { class: "metric-groups" }, tables.filter(([, rows]) => rows.length > 0).map(([name, rows]) =>
+      h("table", {},
+        h("caption", {}, name || "\u00a0"),
+        h("tbody", {}, rows.map(([key, value]) => h("tr", {},
+          h("th", { scope: "row" }, h("code", {}, key)),
+          h("td", { class: "num" }, metricText(value)))))))));
+}
+
+export function notesPanel(notes) {
+  return h("aside", { class: "panel notes" }, h("h3", {}, "Notes"), h("ul", {}, notes.map((note) => h("li", {}, note))));
+}
+
+export function reproduce(run) {
+  const copy = h("button", { type: "button", class: "chip", onclick: async () => {
+    await navigator.clipboard.writeText(run.command);
+    copy.textContent = "Copied";
+    setTimeout(() => { copy.textContent = "Copy"; }, 1500);
+  } }, "Copy");
+  return panel("Run it again", { tools: run.command ? [copy] : [] },
+    run.command ? h("pre", { class: "command" }, h("code", {}, run.command)) : null,
+    run.config_yaml ? h("details", {}, h("summary", {}, "Configuration in force"),
+      h("pre", {}, h("code", {}, run.config_yaml))) : null);
+}
