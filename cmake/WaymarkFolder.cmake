@@ -33,7 +33,6 @@ function(waymark_folder name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   list(TRANSFORM arg_DEPENDS PREPEND waymark:: OUTPUT_VARIABLE folders)
   target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
-  target_precompile_headers(${target} REUSE_FROM waymark_precompiled)
   waymark_warnings(${target})
   waymark_record_reach(${name} "${arg_DEPENDS}")
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
@@ -60,7 +59,6 @@ function(waymark_test folder)
   set(target waymark_${folder}_test)
   add_executable(${target} ${arg_FILES})
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
-  target_precompile_headers(${target} REUSE_FROM waymark_test_precompiled)
   gtest_discover_tests(
     ${target}
     TEST_PREFIX "${folder}."

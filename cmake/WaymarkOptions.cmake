@@ -34,8 +34,7 @@ endif()
 find_program(WAYMARK_CCACHE ccache)
 mark_as_advanced(WAYMARK_CCACHE)
 if(WAYMARK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Precompiled headers are only cached with this sloppiness.
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${WAYMARK_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${WAYMARK_CCACHE}")
 endif()
 
 # waymark_warnings(<target>): the warnings that all our own code is free of. A plain struct may be initialised by its first

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/allocation_counter.hpp"
+#include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
 #include "waymark/models/observation_models.hpp"
 

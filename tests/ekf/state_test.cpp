@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <memory>
+#include <vector>
 
 #include "dense_filter.hpp"
 #include "support/matrix_near.hpp"
@@ -116,8 +117,9 @@ INSTANTIATE_TEST_SUITE_P(AllModes, StateAgainstDenseFilter,
                          testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant}, Case{2, Consistency::kFej},
                                          Case{3, Consistency::kStandard}, Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej}));
 
-State small_map(RandomStream& random, int landmarks, int threads = 1) {
-  State state(2, landmarks, Consistency::kInvariant, threads);
+std::unique_ptr<State> small_map(RandomStream& random, int landmarks, int threads = 1) {
+  auto made = std::make_unique<State>(2, landmarks, Consistency::kInvariant, threads);
+  State& state = *made;
   state.predict({{0.1, 0.0, 0.1}, 1e-3 * Eigen::Matrix3d::Identity()});
   for (int i = 0; i < landmarks; ++i) {
     const Eigen::Vector3d position(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), 0.0);
@@ -125,12 +127,13 @@ State small_map(RandomStream& random, int landmarks, int threads = 1) {
     G.block<2, 1>(0, 2) = perpendicular(position.head<2>());
     state.add(position, G, test::random_covariance<3>(random, 0.01));
   }
-  return state;
+  return made;
 }
 
 TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
   RandomStream random(3, StreamPurpose::kWorld);
-  State state = small_map(random, 5);
+  const auto made = small_map(random, 5);
+  State& state = *made;
   state.predict(random_motion(random));  // leaves a pending prediction of the robot's rows
   const Eigen::MatrixXd P = state.covariance();
   EXPECT_TRUE(matrix_near(state.pose().covariance, P.topLeftCorner<3, 3>(), 0.0));
@@ -140,7 +143,8 @@ TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
 
 TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
   RandomStream random(4, StreamPurpose::kWorld);
-  State state = small_map(random, 5);
+  const auto made = small_map(random, 5);
+  State& state = *made;
   state.predict(random_motion(random));
   const Sighting s = random_sighting(random, 3, 2);
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, 13);
@@ -152,7 +156,8 @@ TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
 
 TEST(State, RefusesAnInnovationCovarianceThatIsNotPositive) {
   RandomStream random(5, StreamPurpose::kWorld);
-  State state = small_map(random, 3);
+  const auto made = small_map(random, 3);
+  State& state = *made;
   const Eigen::VectorXd mean = state.mean();
   const Eigen::MatrixXd covariance = state.covariance();
   for (const double r : {-100.0, std::nan("")}) {
@@ -168,7 +173,8 @@ TEST(State, TwoThreadsGiveTheSameBits) {
   std::vector<Eigen::MatrixXd> results;
   for (const int threads : {1, 2}) {
     RandomStream random(6, StreamPurpose::kWorld);
-    State state = small_map(random, 500, threads);  // n = 1003: large enough to be split
+    const auto made = small_map(random, 500, threads);
+    State& state = *made;  // n = 1003: large enough to be split
     for (int i = 0; i < 3; ++i) {
       const std::vector<Sighting> sightings{random_sighting(random, 5, 2), random_sighting(random, 400, 2)};
       ASSERT_TRUE(state.update(sightings));

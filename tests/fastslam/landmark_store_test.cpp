@@ -1,9 +1,9 @@
 #include "waymark/fastslam/landmark_store.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/allocation_counter.hpp"
 #include "waymark/core/random.hpp"
@@ -85,16 +85,21 @@ class TwinMaps {
 
   void live_one_step() {
     const double chance = random_.uniform();
-    if (store_.size() == 0 || chance < 0.03) add();
-    else if (chance < 0.3) update_in_place();
-    else if (chance < 0.5) update_by_draft(random_.uniform() < 0.7);
-    else resample();
+    if (store_.size() == 0 || chance < 0.03)
+      add();
+    else if (chance < 0.3)
+      update_in_place();
+    else if (chance < 0.5)
+      update_by_draft(random_.uniform() < 0.7);
+    else
+      resample();
   }
 
   [[nodiscard]] bool equal() const {
     for (std::size_t i = 0; i < maps_.size(); ++i)
       for (int k = 0; k < store_.size(); ++k)
-        if (!same_bits(store_.at(k, static_cast<int>(i)), maps_[i][static_cast<std::size_t>(k)])) return false;
+        if (!same_bits(store_.at(k, static_cast<int>(i)), maps_[i][static_cast<std::size_t>(k)]))
+          return false;
     return true;
   }
 
@@ -115,7 +120,9 @@ TEST(LandmarkStore, EqualsDeepCopiesBitForBitOverALongRandomRun) {
     TwinMaps twins(particles, 4);
     for (int step = 0; step < 1500; ++step) {
       twins.live_one_step();
-      if (step % 10 == 0) ASSERT_TRUE(twins.equal()) << particles << " particles, step " << step;
+      if (step % 10 == 0) {
+        ASSERT_TRUE(twins.equal()) << particles << " particles, step " << step;
+      }
     }
     EXPECT_GT(twins.store().size(), 20);
   }

@@ -1,9 +1,9 @@
 #include "waymark/fastslam/landmark_update.hpp"
 
-#include <Eigen/Dense>
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
 #include "support/poses.hpp"
@@ -18,12 +18,16 @@ using test::matrix_near;
 constexpr int kCount = 40;
 
 Eigen::Vector2d mean_of(const LandmarkGaussian& m) { return {m.x, m.y}; }
-Eigen::Matrix2d covariance_of(const LandmarkGaussian& m) { return Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}}; }
+Eigen::Matrix2d covariance_of(const LandmarkGaussian& m) {
+  return Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}};
+}
 
 /// Particles anywhere, of random weights, and one landmark that each of them sees elsewhere.
 struct Scene {
-  explicit Scene(std::uint64_t seed) : random(seed, StreamPurpose::kWorld), particles(kCount, {}), blocks(kCount), store(blocks) {
-    move(particles, {{}, Eigen::Vector3d(9.0, 9.0, 4.0).asDiagonal()}, {seed, StreamPurpose::kMotion, 0}, blocks);
+  explicit Scene(std::uint64_t seed)
+      : random(seed, StreamPurpose::kWorld), particles(kCount, {}), blocks(kCount), store(blocks) {
+    move(particles, {{}, Eigen::Vector3d(9.0, 9.0, 4.0).asDiagonal()}, {seed, StreamPurpose::kMotion, 0},
+         blocks);
     for (std::size_t i = 0; i < kCount; ++i) particles.log_weight[i] = random.normal();
     (void)normalise_weights(particles, blocks);
     store.add();
@@ -59,7 +63,8 @@ TEST(UpdateLandmark, EqualsTheTextbookFilterForEachParticle) {
     scene.update(z, R);
     for (std::size_t i = 0; i < kCount; ++i) {
       const LandmarkGaussian before = scene.landmark.at(i);
-      const auto h = RangeBearingModel::linearize(scene.particles.pose(static_cast<int>(i)), scene.mount, mean_of(before));
+      const auto h = RangeBearingModel::linearize(scene.particles.pose(static_cast<int>(i)), scene.mount,
+                                                  mean_of(before));
       const Eigen::Vector2d nu = RangeBearingModel::innovation(z, h.predicted);
       const Eigen::Matrix2d Sigma = covariance_of(before);
       const Eigen::Matrix2d Z = h.H_landmark * Sigma * h.H_landmark.transpose() + R;
@@ -68,7 +73,8 @@ TEST(UpdateLandmark, EqualsTheTextbookFilterForEachParticle) {
       EXPECT_TRUE(matrix_near(mean_of(after), mean_of(before) + K * nu, 1e-9));
       EXPECT_TRUE(matrix_near(covariance_of(after), Sigma - K * Z * K.transpose(), 1e-11));
       // log N(nu; 0, Z) without its constant.
-      EXPECT_NEAR(scene.log_likelihood[i], -0.5 * nu.dot(Z.inverse() * nu) - 0.5 * std::log(Z.determinant()), 1e-8);
+      EXPECT_NEAR(scene.log_likelihood[i], -0.5 * nu.dot(Z.inverse() * nu) - 0.5 * std::log(Z.determinant()),
+                  1e-8);
     }
   }
 }
@@ -83,7 +89,8 @@ TEST(UpdateLandmark, MomentsAreThoseOfTheMixture) {
   double log_likelihood = 0.0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const LandmarkGaussian m = scene.landmark.at(i);
-    const auto h = RangeBearingModel::linearize(scene.particles.pose(static_cast<int>(i)), scene.mount, mean_of(m));
+    const auto h =
+        RangeBearingModel::linearize(scene.particles.pose(static_cast<int>(i)), scene.mount, mean_of(m));
     const Eigen::Vector2d nu = RangeBearingModel::innovation(z, h.predicted);
     const double w = scene.particles.weight[i];
     mean += w * nu;
@@ -120,7 +127,8 @@ TEST(UpdateLandmark, IsFiniteWithALandmarkOnTheSensor) {
     scene.landmark.x[i] = T_world_sensor.x_m;
     scene.landmark.y[i] = T_world_sensor.y_m;
   }
-  for (const double moment : scene.update({12.0, 1.0}, Eigen::Matrix2d::Identity())) EXPECT_TRUE(std::isfinite(moment));
+  for (const double moment : scene.update({12.0, 1.0}, Eigen::Matrix2d::Identity()))
+    EXPECT_TRUE(std::isfinite(moment));
 }
 
 TEST(PlaceLandmark, InvertsTheMeasurementForEachParticle) {
@@ -130,7 +138,8 @@ TEST(PlaceLandmark, InvertsTheMeasurementForEachParticle) {
     const Eigen::Matrix2d R = test::random_covariance<2>(scene.random, 0.02);
     place_landmark({z, R, scene.mount}, scene.particles, scene.landmark, 0, kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
-      const auto inverse = RangeBearingModel::locate(scene.particles.pose(static_cast<int>(i)), scene.mount, z);
+      const auto inverse =
+          RangeBearingModel::locate(scene.particles.pose(static_cast<int>(i)), scene.mount, z);
       const Eigen::Matrix2d Sigma = inverse.G_measurement * R * inverse.G_measurement.transpose();
       EXPECT_TRUE(matrix_near(mean_of(scene.landmark.at(i)), inverse.p_world, 1e-11));
       EXPECT_TRUE(matrix_near(covariance_of(scene.landmark.at(i)), Sigma, 1e-9 * Sigma.norm()));

@@ -1,9 +1,9 @@
 #include "waymark/fastslam/particle_blocks.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numeric>
+
+#include <gtest/gtest.h>
 
 namespace waymark::fastslam {
 namespace {

@@ -1,11 +1,11 @@
 #include "waymark/fastslam/particles.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
 #include "support/poses.hpp"
@@ -19,7 +19,9 @@ using test::matrix_near;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-double sum_of_weights(const Particles& p) { return std::accumulate(p.weight.data(), p.weight.data() + p.weight.size(), 0.0); }
+double sum_of_weights(const Particles& p) {
+  return std::accumulate(p.weight.data(), p.weight.data() + p.weight.size(), 0.0);
+}
 
 double effective(const Particles& p) { return effective_particles({p.weight.data(), p.weight.size()}); }
 
@@ -55,7 +57,8 @@ TEST(Particles, MoveDrawsFromTheMotion) {
   const double sigma = std::sqrt(expected.covariance.diagonal().maxCoeff());
   EXPECT_TRUE(matrix_near(difference(actual.T_world_robot, expected.T_world_robot), Eigen::Vector3d::Zero(),
                           5.0 * sigma / std::sqrt(kCount)));
-  EXPECT_TRUE(matrix_near(actual.covariance, expected.covariance, 5.0 * sigma * sigma * std::sqrt(2.0 / kCount)));
+  EXPECT_TRUE(
+      matrix_near(actual.covariance, expected.covariance, 5.0 * sigma * sigma * std::sqrt(2.0 / kCount)));
   for (std::size_t i = 0; i < kCount; i += 1000) {
     EXPECT_EQ(particles.cos_theta[i], std::cos(particles.theta_rad[i]));
     EXPECT_LE(std::abs(particles.theta_rad[i]), kPi);

@@ -1,11 +1,11 @@
 #include "waymark/fastslam/resampling.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "waymark/core/random.hpp"
 
@@ -72,7 +72,8 @@ TEST(ChooseAncestors, KeepsEveryParentInItsOwnPlace) {
   RandomStream random(3, StreamPurpose::kResampling);
   for (int round = 0; round < 200; ++round) {
     const auto ancestors = ancestors_of(random_weights(random, 64), random.uniform());
-    for (const auto ancestor : ancestors) EXPECT_EQ(ancestors.at(static_cast<std::size_t>(ancestor)), ancestor);
+    for (const auto ancestor : ancestors)
+      EXPECT_EQ(ancestors.at(static_cast<std::size_t>(ancestor)), ancestor);
   }
 }
 

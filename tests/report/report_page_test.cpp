@@ -66,37 +66,41 @@ struct ScratchFolder {
 };
 
 struct Page {
-  std::string dom;
-  std::string console;
+  std::string title;
+  std::string body;     // what the script made: the main element
+  std::string console;  // lines that a script or the browser wrote
 };
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+  const auto at = text.find(begin);
+  if (at == std::string::npos) return "";
+  return text.substr(at + begin.size(), text.find(end, at) - at - begin.size());
+}
+
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  std::array<char, 65536> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
+    text.append(buffer.data(), n);
+  return text;
+}
 
 Page open_in_browser(const ReportData& data) {
   const ScratchFolder scratch;
   std::string html = render_report(data);
   html.replace(html.rfind("</body>"), 7, kUser);
-  const auto file = scratch.path / "report.html";
-  const auto log = scratch.path / "log";
+  const std::string file = (scratch.path / "report.html").string();
+  const std::string log = (scratch.path / "log").string();
   EXPECT_TRUE(write_file(file, html));
-  const std::string command =
+  const std::string dom = output_of(
       "timeout 120 '" WAYMARK_CHROMIUM
       "' --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking "
-      "--disable-component-update --disable-sync --window-size=1300,1000 "
-      "--virtual-time-budget=3000 --enable-logging=stderr --user-data-dir='" +
-      (scratch.path / "profile").string() + "' --dump-dom 'file://" + file.string() + "' 2>'" + log.string() +
-      "'";
-  Page page;
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::array<char, 65536> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
-    page.dom.append(buffer.data(), n);
-  const auto text = read_file(log);
-  for (std::size_t at = 0; text && at < text->size();) {
-    const std::size_t end = std::min(text->find('\n', at), text->size());
-    const std::string line = text->substr(at, end - at);
-    if (line.find("CONSOLE") != std::string::npos) page.console += line + "\n";
-    at = end + 1;
-  }
-  return page;
+      "--disable-component-update --disable-sync --window-size=1300,1000 --virtual-time-budget=3000 "
+      "--enable-logging=stderr --user-data-dir='" +
+      (scratch.path / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + log + "'");
+  return {between(dom, "<title>", "</title>"), between(dom, "<main", "</main>"),
+          output_of("grep CONSOLE '" + log + "'")};
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -110,12 +114,12 @@ constexpr const char* kUplot = "class=\"uplot ";
 TEST(ReportPage, DrawsEverythingAndAnswers) {
   const Page page = open_in_browser(sample_report(900));
   EXPECT_EQ(page.console, "");
-  EXPECT_NE(page.dom.find("<title>used to the end</title>"), std::string::npos);
-  EXPECT_EQ(count(page.dom, kUplot), 8U);  // position; x, y, heading, NEES; innovations, histogram; steps
-  EXPECT_EQ(count(page.dom, "class=\"map-frame\""), 1U);
+  EXPECT_EQ(page.title, "used to the end");
+  EXPECT_EQ(count(page.body, kUplot), 8U);  // position; x, y, heading, NEES; innovations, histogram; steps
+  EXPECT_EQ(count(page.body, "class=\"map-frame\""), 1U);
   for (const char* text : {"Runs compared", "Function blocks", "position_rmse_m",
                            "3 observations came before", "Run it again"}) {
-    EXPECT_NE(page.dom.find(text), std::string::npos) << text;
+    EXPECT_NE(page.body.find(text), std::string::npos) << text;
   }
 }
 
@@ -129,9 +133,9 @@ TEST(ReportPage, LeavesOutWhatARunDoesNotHave) {
   data.runs[0].alignment.reset();
   const Page page = open_in_browser(data);
   EXPECT_EQ(page.console, "");
-  EXPECT_EQ(count(page.dom, kUplot), 3U);
-  EXPECT_EQ(page.dom.find("Errors over time"), std::string::npos);
-  EXPECT_EQ(page.dom.find("Runs compared"), std::string::npos);
+  EXPECT_EQ(count(page.body, kUplot), 3U);
+  EXPECT_EQ(page.body.find("Errors over time"), std::string::npos);
+  EXPECT_EQ(page.body.find("Runs compared"), std::string::npos);
 }
 
 TEST(ReportPage, OpensWithoutAnything) {
@@ -139,8 +143,8 @@ TEST(ReportPage, OpensWithoutAnything) {
   data.runs.resize(1);
   const Page page = open_in_browser(data);
   EXPECT_EQ(page.console, "");
-  EXPECT_NE(page.dom.find("nothing to show"), std::string::npos);
-  EXPECT_EQ(count(page.dom, kUplot), 0U);
+  EXPECT_NE(page.body.find("nothing to show"), std::string::npos);
+  EXPECT_EQ(count(page.body, kUplot), 0U);
 }
 
 #else

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"

@@ -2,23 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <optional>
 
 namespace waymark {
 
 /// Finite, symmetric to 1e-9 of its largest entry, and no eigenvalue below -1e-9 of the largest one.
 /// O(n^3): for inputs and tests, not for the hot loop.
-template <class Derived>
-[[nodiscard]] bool is_covariance(const Eigen::MatrixBase<Derived>& P) {
-  if (P.rows() != P.cols() || !P.allFinite()) return false;
-  const double scale = P.cwiseAbs().maxCoeff();
-  if (scale == 0.0) return true;
-  if ((P - P.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) return false;
-  const Eigen::MatrixXd dense = P;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() >=
-         -1e-9 * scale;
-}
+[[nodiscard]] bool is_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P);
 
 /// nu^T S^-1 nu by Cholesky, or nothing when S is not positive definite or anything is not finite.
 template <int N>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "waymark/core/gaussian.hpp"
 #include "waymark/fastslam/resampling.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -91,6 +93,7 @@ void FastSlam::predict(const Motion& motion) {
 
 void FastSlam::move_particles() {
   if (is_still(pending_)) return;
+  estimate_ = pose();
   fastslam::move(particles_, pending_, {seed_, StreamPurpose::kMotion, step_++}, particle_blocks_);
   pending_ = {};
 }
@@ -106,7 +109,7 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   timer.finish(kPredict);
   update(observations);
   timer.finish(kUpdate);
-  estimate_ = fastslam::estimate(particles_, particle_blocks_);
+  if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
   resample();
   timer.finish(kResample);

@@ -18,8 +18,8 @@ void set_pose(Particles& p, std::size_t i, double x_m, double y_m, double theta_
   p.x_m[i] = x_m;
   p.y_m[i] = y_m;
   p.theta_rad[i] = wrap_angle(theta_rad);
-  p.cos_theta[i] = std::cos(theta_rad);
-  p.sin_theta[i] = std::sin(theta_rad);
+  p.cos_theta[i] = std::cos(p.theta_rad[i]);
+  p.sin_theta[i] = std::sin(p.theta_rad[i]);
 }
 
 double largest_log_weight(const Particles& p) {

@@ -38,7 +38,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   content.resize(std::fread(content.data(), 1, content.size(), file.get()));
   // A pipe has no size, and a file may grow while it is read.
   char chunk[65536];
-  for (std::size_t count; (count = std::fread(chunk, 1, sizeof chunk, file.get())) > 0;)
+  for (std::size_t count = 0; (count = std::fread(chunk, 1, sizeof chunk, file.get())) > 0;)
     content.append(chunk, count);
   if (std::ferror(file.get()) != 0) return system_error("read", path, errno);
   return content;

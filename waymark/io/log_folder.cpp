@@ -145,6 +145,7 @@ std::map<std::string, Meaning, std::less<>> meanings_of_keys(LogInfo& info) {
 Error unknown_key(const std::string& where, const std::string& key,
                   const std::map<std::string, Meaning, std::less<>>& known) {
   std::vector<std::string> names;
+  names.reserve(known.size());
   for (const auto& [name, meaning] : known) names.push_back(name);
   const std::string guess = nearest_name(key, names);
   return {fmt::format("{}: unknown key {}{}; config keys stand under `config:`", where, key,

@@ -9,7 +9,7 @@ namespace waymark::log_format {
 struct Table {
   std::string_view file;
   std::string_view columns;
-  std::string_view may_lack = "";  ///< columns that need not be there
+  std::string_view may_lack{};  ///< columns that need not be there
 };
 
 inline constexpr Table kWheels{"wheels.csv", "stamp_s,left_rad,right_rad"};

@@ -43,18 +43,23 @@ struct Update {
   const double *d, *e;  // null without a shear
 };
 
+// The change of kRows rows by kVectors vectors of P.
 template <std::size_t kRows, std::size_t kVectors>
 struct Tile {
   Vector sum[kRows][kVectors];
 
-  HWY_INLINE void load(const double* P, std::size_t ld) {
-    for (std::size_t r = 0; r < kRows; ++r)
-      for (std::size_t v = 0; v < kVectors; ++v) sum[r][v] = hn::Load(kTag, P + r * ld + v * hn::Lanes(kTag));
+  HWY_INLINE void clear() {
+    for (auto& row : sum)
+      for (Vector& s : row) s = hn::Zero(kTag);
   }
 
-  HWY_INLINE void store(double* P, std::size_t ld) const {
-    for (std::size_t r = 0; r < kRows; ++r)
-      for (std::size_t v = 0; v < kVectors; ++v) hn::Store(sum[r][v], kTag, P + r * ld + v * hn::Lanes(kTag));
+  HWY_INLINE void add_to(double* P, std::size_t ld) const {
+    for (std::size_t r = 0; r < kRows; ++r) {
+      for (std::size_t v = 0; v < kVectors; ++v) {
+        double* const p = P + r * ld + v * hn::Lanes(kTag);
+        hn::Store(hn::Add(hn::Load(kTag, p), sum[r][v]), kTag, p);
+      }
+    }
   }
 
   // += or -= the outer product of kRows values at `left` and the tile's width of values at `right`.
@@ -82,10 +87,9 @@ template <std::size_t kRows, std::size_t kVectors>
 HWY_INLINE void update_tile(const Update& u, std::size_t i, std::size_t j) {
   double* const P = u.P + i * u.ld + j;
   Tile<kRows, kVectors> tile;
-  tile.load(P, u.ld);
+  tile.clear();
   prefetch_right<kRows, kVectors>(P, u.ld);
-  // The row tiles of a block share out the fetching of the next panel of W from L2, one vector of its rows
-  // each.
+  // The row tiles of a block share out the fetching of the next panel of W: one vector of each row of W.
   const std::size_t next = (kVectors + i / kTileRows % kTileVectors) * hn::Lanes(kTag);
   const double* W = u.W;
   for (std::size_t k = 0; k < u.D; ++k, W += u.ldw) {
@@ -96,7 +100,7 @@ HWY_INLINE void update_tile(const Update& u, std::size_t i, std::size_t j) {
     tile.template add_outer<false>(u.d + i, u.e + j);
     tile.template add_outer<false>(u.e + i, u.d + j);
   }
-  tile.store(P, u.ld);
+  tile.add_to(P, u.ld);  // only now: the sums of this tile and the next need not wait for P
 }
 
 // A tile cut short by the diagonal or the right edge has fewer vectors.

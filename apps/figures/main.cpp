@@ -1,0 +1,202 @@
+// Prints the figures of docs/results.md: each subcommand one table.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "waymark/core/chi2.hpp"
+#include "waymark/core/parallel.hpp"
+#include "waymark/report/results.hpp"
+
+namespace waymark {
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+/// Prints the reason where there is no result.
+std::optional<RunResult> run(const std::string& input, std::vector<std::string> settings) {
+  auto result = run_log(input, {{}, std::move(settings)});
+  if (!result) fmt::print(stderr, "{}: {}\n", input, result.error().message);
+  return result ? std::optional(std::move(*result)) : std::nullopt;
+}
+
+/// The columns of the MRCLAM table.
+struct Score {
+  double anchored_m = 0.0;
+  double aligned_m = 0.0;
+  double map_m = 0.0;
+  double nees = 0.0;
+  double nis_per_dof = 0.0;
+};
+
+Score score(const RunResult& result) {
+  const eval::Evaluation& e = *result.evaluation;
+  Score s{e.path.position_rmse_m.value_or(NAN), e.path.position_rmse_aligned_m.value_or(NAN), NAN,
+          e.nees.median.value_or(NAN), result.metrics.nis_per_dof.value_or(NAN)};
+  if (e.map) s.map_m = e.map->rmse_self_m.value_or(NAN);
+  return s;
+}
+
+/// Member by member over the seeds.
+template <class Reduce>
+Score combine(const std::vector<Score>& scores, const Reduce& reduce) {
+  const auto column = [&](double Score::*member) {
+    std::vector<double> values;
+    for (const auto& s : scores) values.push_back(s.*member);
+    return reduce(values);
+  };
+  return {column(&Score::anchored_m), column(&Score::aligned_m), column(&Score::map_m), column(&Score::nees),
+          column(&Score::nis_per_dof)};
+}
+
+void print(const std::string& name, const Score& s) {
+  fmt::print("{:<10}{:>10.3f}{:>10.3f}{:>10.3f}{:>12.1f}{:>10.2f}\n", name, s.anchored_m, s.aligned_m, s.map_m, s.nees,
+             s.nis_per_dof);
+}
+
+/// One filter on several robots of an MRCLAM directory; FastSLAM as the median over seeds.
+int mrclam(const std::string& folder, int robots, const std::string& filter, int seeds, std::vector<std::string> extra) {
+  fmt::print("{} on {}: RMSE in m\n{:<10}{:>10}{:>10}{:>10}{:>12}{:>10}\n", filter, folder, "robot", "anchored", "aligned",
+             "map self", "NEES median", "NIS/dof");
+  std::vector<Score> robots_scores;
+  for (int robot = 1; robot <= robots; ++robot) {
+    std::vector<Score> scores;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      std::vector<std::string> settings{"filter=" + filter, fmt::format("input.robot={}", robot), fmt::format("seed={}", seed), "fastslam.particles=100"};
+      settings.insert(settings.end(), extra.begin(), extra.end());
+      const auto result = run(folder, std::move(settings));
+      if (!result || !result->evaluation) return 1;
+      scores.push_back(score(*result));
+    }
+    robots_scores.push_back(combine(scores, median));
+    print(std::to_string(robot), robots_scores.back());
+  }
+  print("mean", combine(robots_scores, mean));
+  return 0;
+}
+
+/// Where the run ends relative to where it began: for logs that return to their start.
+int loop_closure(const std::string& folder, std::vector<std::string> settings) {
+  const auto result = run(folder, std::move(settings));
+  if (!result || result->recording.trajectory.empty()) return 1;
+  const auto report = [](const char* name, const Pose2& end) {
+    fmt::print("{:<20} ends {:.3f} m and {:.2f} deg from its start\n", name, end.position().norm(), to_degrees(end.theta_rad));
+  };
+  report("odometry alone", result->recording.dead_reckoning.back().pose);
+  report(result->metrics.filter.c_str(), result->recording.trajectory.back().pose);
+  if (result->evaluation && result->evaluation->map && result->evaluation->map->rmse_self_m)
+    fmt::print("landmark RMSE, aligned on the landmarks: {:.3f} m\n", *result->evaluation->map->rmse_self_m);
+  return 0;
+}
+
+/// What the study keeps of one run.
+struct StudyRun {
+  double ekf_rmse_m = 0.0;
+  double fastslam_rmse_m = 0.0;
+  std::map<Stamp, double> nees;  ///< of the EKF, by stamp
+  bool ok = false;
+};
+
+StudyRun study_run(int seed, const std::vector<std::string>& extra) {
+  StudyRun study;
+  for (const std::string filter : {"ekf", "fastslam"}) {
+    std::vector<std::string> settings{"filter=" + filter, fmt::format("seed={}", seed), "fastslam.particles=150"};
+    settings.insert(settings.end(), extra.begin(), extra.end());
+    const auto result = run("sim:study", std::move(settings));
+    if (!result || !result->evaluation || !result->evaluation->path.position_rmse_m) return study;
+    (filter == "ekf" ? study.ekf_rmse_m : study.fastslam_rmse_m) = *result->evaluation->path.position_rmse_m;
+    if (filter == "ekf")
+      for (const auto& sample : result->evaluation->series)
+        if (sample.nees) study.nees[sample.stamp] = *sample.nees;
+  }
+  study.ok = true;
+  return study;
+}
+
+/// The part of the stamps at which the mean NEES over the runs lies inside its 99 % band; stamps that some run lacks
+/// (a covariance that is still singular) do not count.
+double part_inside(const std::vector<StudyRun>& runs, double from_s, double to_s) {
+  const auto n = static_cast<double>(runs.size());
+  const double low = chi2_quantile(0.005, 3.0 * n) / n;
+  const double high = chi2_quantile(0.995, 3.0 * n) / n;
+  int inside = 0;
+  int all = 0;
+  for (const auto& [stamp, unused] : runs.front().nees) {
+    if (to_seconds(stamp) < from_s || to_seconds(stamp) >= to_s) continue;
+    double sum = 0.0;
+    bool everywhere = true;
+    for (const auto& one : runs) {
+      const auto found = one.nees.find(stamp);
+      everywhere = everywhere && found != one.nees.end();
+      if (everywhere) sum += found->second;
+    }
+    if (!everywhere) continue;
+    ++all;
+    inside += sum / n >= low && sum / n <= high ? 1 : 0;
+  }
+  return all > 0 ? static_cast<double>(inside) / all : NAN;
+}
+
+int study(int seeds, const std::vector<std::string>& extra) {
+  std::vector<StudyRun> runs(static_cast<std::size_t>(seeds));
+  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  team.run(seeds, [&](int i) { runs[static_cast<std::size_t>(i)] = study_run(i + 1, extra); });
+  if (!std::ranges::all_of(runs, &StudyRun::ok)) return 1;
+  std::vector<double> ekf;
+  std::vector<double> fastslam;
+  for (const auto& one : runs) {
+    ekf.push_back(one.ekf_rmse_m);
+    fastslam.push_back(one.fastslam_rmse_m);
+  }
+  const double end_s = to_seconds(runs.front().nees.rbegin()->first);
+  fmt::print("world study, {} seeds\n", seeds);
+  fmt::print("EKF mean pose NEES inside its 99 % band: {:.1f} % of the first lap, {:.1f} % of the second\n",
+             100.0 * part_inside(runs, 0.0, 0.5 * end_s), 100.0 * part_inside(runs, 0.5 * end_s, 2.0 * end_s));
+  fmt::print("position RMSE, mean and median over the seeds: EKF {:.3f} {:.3f} m, FastSLAM (150 particles) {:.3f} {:.3f} m, ratio {:.2f} {:.2f}\n",
+             mean(ekf), median(ekf), mean(fastslam), median(fastslam), mean(fastslam) / mean(ekf), median(fastslam) / median(ekf));
+  return 0;
+}
+
+}  // namespace
+}  // namespace waymark
+
+int main(int argc, char** argv) {
+  CLI::App app{"Prints the figures of docs/results.md", "waymark-figures"};
+  app.require_subcommand(1);
+  std::string folder;
+  std::string filter = "ekf";
+  int robots = 4;
+  int seeds = 3;
+  int study_seeds = 50;
+  std::vector<std::string> settings;
+  int status = 0;
+  auto* mrclam = app.add_subcommand("mrclam", "errors on the robots of an MRCLAM directory");
+  mrclam->add_option("directory", folder)->required();
+  mrclam->add_option("--robots", robots);
+  mrclam->add_option("--filter", filter);
+  mrclam->add_option("--seeds", seeds, "FastSLAM: median over this many");
+  mrclam->callback([&] { status = waymark::mrclam(folder, robots, filter, filter == "ekf" ? 1 : seeds, settings); });
+  auto* loop = app.add_subcommand("loop", "how far a log that returns to its start ends from it");
+  loop->add_option("log", folder)->required();
+  loop->callback([&] { status = waymark::loop_closure(folder, settings); });
+  auto* study = app.add_subcommand("study", "the simulated world that serves every comparison");
+  study->add_option("--seeds", study_seeds);
+  study->callback([&] { status = waymark::study(study_seeds, settings); });
+  for (auto* command : {mrclam, loop, study}) command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
+  CLI11_PARSE(app, argc, argv);
+  return status;
+}
