@@ -1,9 +1,9 @@
 #include "waymark/ekf/ekf_slam.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/allocation_counter.hpp"
 #include "waymark/core/gaussian.hpp"
@@ -20,13 +20,15 @@ constexpr double kBearingSigma_rad = 0.02;
 class CircleWorld {
  public:
   explicit CircleWorld(std::uint64_t seed) : random_(seed, StreamPurpose::kSimulation) {
-    for (int i = 0; i < 8; ++i) landmarks_.emplace_back(6.0 * std::cos(i * kPi / 4.0) + 1.0, 6.0 * std::sin(i * kPi / 4.0) + 3.0);
+    for (int i = 0; i < 8; ++i)
+      landmarks_.emplace_back(6.0 * std::cos(i * kPi / 4.0) + 1.0, 6.0 * std::sin(i * kPi / 4.0) + 3.0);
   }
 
   Motion move() {
     const Eigen::Vector3d sigma(0.01, 0.005, 0.01);
     const Pose2 step{0.1, 0.0, 0.03};
-    truth_ = truth_ * Pose2{step.x_m + sigma[0] * random_.normal(), sigma[1] * random_.normal(), step.theta_rad + sigma[2] * random_.normal()};
+    truth_ = truth_ * Pose2{step.x_m + sigma[0] * random_.normal(), sigma[1] * random_.normal(),
+                            step.theta_rad + sigma[2] * random_.normal()};
     return {step, sigma.cwiseAbs2().asDiagonal()};
   }
 
@@ -37,8 +39,11 @@ class CircleWorld {
   }
 
   Observation sight(int landmark) {
-    const auto z = RangeBearingModel::linearize(truth_, mount_, landmarks_[static_cast<std::size_t>(landmark)]).predicted;
-    const RangeBearing noisy{z[0] + kRangeSigma_m * random_.normal(), wrap_angle(z[1] + kBearingSigma_rad * random_.normal())};
+    const auto z =
+        RangeBearingModel::linearize(truth_, mount_, landmarks_[static_cast<std::size_t>(landmark)])
+            .predicted;
+    const RangeBearing noisy{z[0] + kRangeSigma_m * random_.normal(),
+                             wrap_angle(z[1] + kBearingSigma_rad * random_.normal())};
     const Eigen::Vector2d variance(kRangeSigma_m * kRangeSigma_m, kBearingSigma_rad * kBearingSigma_rad);
     return {LandmarkId{LandmarkId::Family::kMarker, landmark}, noisy, Eigen::Matrix2d(variance.asDiagonal())};
   }
@@ -114,9 +119,11 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
   scan.push_back(world.sight(0));
   const auto& correction = filter.correct(scan);
-  const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kUnusable,
-                                      Outcome::kMatched,  Outcome::kMapFull,      Outcome::kDuplicate};
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(correction.innovations[i].outcome, expected[i]) << i;
+  const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable,
+                                      Outcome::kUnusable, Outcome::kMatched,      Outcome::kMapFull,
+                                      Outcome::kDuplicate};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(correction.innovations[i].outcome, expected[i]) << i;
   EXPECT_TRUE(filter.pose().covariance.allFinite());
 }
 
@@ -124,7 +131,8 @@ TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
   EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, Pose2{});
   std::vector<Observation> scan;
   for (int i = 0; i < 80; ++i)
-    scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i}, Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())});
+    scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i},
+                    Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())});
   EXPECT_EQ(filter.correct(scan).count(Outcome::kAdded), 80);
   filter.predict({{0.01, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
   EXPECT_EQ(filter.correct(scan).count(Outcome::kMatched), 80);

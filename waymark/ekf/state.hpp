@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/motion.hpp"
@@ -12,13 +13,14 @@ namespace waymark::ekf {
 
 /// At which point the filter linearises, which decides whether it fools itself about its heading.
 enum class Consistency {
-  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after each update
+  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after
+               ///< each update
   kFej,        ///< first-estimates Jacobians (Huang, Mourikis, Roumeliotis 2010)
   kStandard,   ///< at the latest estimate, as in the 2012 article; overconfident when the odometry is poor
 };
 
-/// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its noise.
-/// Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
+/// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
+/// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
 struct Sighting {
   int landmark = 0;
   int rows = 2;
@@ -28,11 +30,13 @@ struct Sighting {
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
 };
 
-/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that writes
-/// either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here allocates later.
+/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that
+/// writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here
+/// allocates later.
 ///
-/// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension * landmarks:
-/// predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop, add O(n), remove O(n).
+/// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension *
+/// landmarks: predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop,
+/// add O(n), remove O(n).
 class State {
  public:
   State(int dimension, int capacity, Consistency consistency, int threads = 1);
@@ -62,11 +66,12 @@ class State {
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
 
   /// Exact update with all sightings at once (Vincke et al. 2012, equations 10 to 12, as P -= W^T W with
-  /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive definite.
+  /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive
+  /// definite.
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
 
-  /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only their
-  /// leading `dimension()` rows count. Returns its index. The map must not be full.
+  /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only
+  /// their leading `dimension()` rows count. Returns its index. The map must not be full.
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
 
   /// Marginalises a landmark out; the last one takes its index.
@@ -80,8 +85,12 @@ class State {
   using Buffer = AlignedArray<double>;
 
   [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
-  [[nodiscard]] std::size_t offset(int index) const { return 3 + static_cast<std::size_t>(index * dimension_); }
-  [[nodiscard]] double P(std::size_t i, std::size_t j) const { return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i]; }
+  [[nodiscard]] std::size_t offset(int index) const {
+    return 3 + static_cast<std::size_t>(index * dimension_);
+  }
+  [[nodiscard]] double P(std::size_t i, std::size_t j) const {
+    return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
+  }
   [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_covariance(int index) const;
 
   void join_robot_rows();
@@ -99,17 +108,18 @@ class State {
   int landmarks_ = 0;
   std::size_t ld_;
 
-  Buffer x_;              // n: the mean
-  Buffer first_;          // n: first estimates of the landmarks (kFej)
-  Buffer P_;              // n x n, upper triangle
-  Buffer W_;              // D x n: H P, then L^-1 H P
-  Buffer dx_;             // n: K nu
-  Buffer shear_d_;        // n: d of the shear
-  Buffer shear_e_;        // n: c + c_th/2 d
+  Buffer x_;        // n: the mean
+  Buffer first_;    // n: first estimates of the landmarks (kFej)
+  Buffer P_;        // n x n, upper triangle
+  Buffer W_;        // D x n: H P, then L^-1 H P
+  Buffer dx_;       // n: K nu
+  Buffer shear_d_;  // n: d of the shear
+  Buffer shear_e_;  // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
-  Eigen::VectorXd nu_;    // D, then L^-1 nu
+  Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
 
-  // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last joined.
+  // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last
+  // joined.
   Eigen::Vector2d pending_phi_ = Eigen::Vector2d::Zero();
   bool pending_ = false;
   Pose2 linearization_pose_;  // the predicted pose, x_{k|k-1}

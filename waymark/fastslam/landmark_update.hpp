@@ -26,7 +26,8 @@ struct Sighting {
 };
 
 /// sum w (nu_r, nu_b, P_rr, P_rb, P_bb, l) over particles of weight w, with nu the innovation, P = Z + nu
-/// nu^T its second moment about zero (Z = H Sigma H^T + R) and l the log-likelihood.
+/// nu^T its second moment about zero (Z = H Sigma H^T + R) and l the log-likelihood. To take the mean of
+/// angles, nu_b is within half a turn of that of the first particle, and so may leave (-pi, pi].
 using InnovationMoments = std::array<double, 6>;
 
 /// For each particle in [begin, end): the EKF update of its landmark (Montemerlo et al. 2002), from `before`
