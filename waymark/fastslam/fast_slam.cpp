@@ -51,6 +51,8 @@ Motion spread_of(const PoseEstimate& pose) {
 }  // namespace
 
 void describe(Schema& schema, FastSlamOptions& o) {
+  schema.choice("fastslam.proposal", o.proposal, {"1.0", "2.0"},
+                "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and sightings");
   schema.integer("fastslam.particles", o.particles, {1, 10'000'000}, "number of particles");
   schema.real("fastslam.resample_below", o.resample_below, {0.0, 1.0},
               "resample when the effective number of particles falls below this part of them");
@@ -71,6 +73,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       particle_blocks_(options.particles, threads),
       particles_(options.particles, initial.T_world_robot),
       store_(particle_blocks_),
+      proposal_(options.particles),
       log_likelihood_(static_cast<std::size_t>(options.particles)),
       ancestors_(static_cast<std::size_t>(options.particles)),
       index_(static_cast<std::size_t>(options.capacity)),
@@ -105,9 +108,12 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   correction_ = {innovations_, {}};
   if (!any(Outcome::kMatched) && !any(Outcome::kAdded)) return correction_;
 
-  move_particles();
+  if (options_.proposal == ProposalKind::kMotion) move_particles();
   timer.finish(kPredict);
-  update(observations);
+  if (options_.proposal == ProposalKind::kMotion)
+    update(observations);
+  else
+    propose(observations);
   timer.finish(kUpdate);
   if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
@@ -152,8 +158,11 @@ Outcome FastSlam::screen(std::size_t index, const Observation& observation) cons
 }
 
 fastslam::Sighting FastSlam::sighting(const Observation& observation) const {
-  const double inflation = options_.noise_inflation * options_.noise_inflation;
-  return {std::get<RangeBearing>(observation.value), inflation * *observation.covariance, T_robot_sensor_};
+  return {std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_};
+}
+
+Eigen::Matrix2d FastSlam::noise(const Observation& observation) const {
+  return options_.noise_inflation * options_.noise_inflation * *observation.covariance;
 }
 
 void FastSlam::update(std::span<const Observation> observations) {
@@ -178,6 +187,40 @@ void FastSlam::compare(const Observation& observation, Innovation& innovation) {
   store_.accept(landmark);
   ++landmarks_[static_cast<std::size_t>(landmark)].observations;
   for (std::size_t i = 0; i < log_likelihood_.size(); ++i) particles_.log_weight[i] += log_likelihood_[i];
+}
+
+/// FastSLAM 2.0: the sightings shape where each particle goes before it goes there; then its landmarks are updated
+/// from where it went.
+void FastSlam::propose(std::span<const Observation> observations) {
+  estimate_ = pose();
+  proposal_.start(particles_, pending_, particle_blocks_);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) condition(observations[i], innovations_[i]);
+  if (any(Outcome::kMatched)) weigh();
+  proposal_.sample(particles_, {seed_, StreamPurpose::kMotion, step_++}, particle_blocks_);
+  pending_ = {};
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) update_landmark(observations[i]);
+}
+
+void FastSlam::condition(const Observation& observation, Innovation& innovation) {
+  const auto moments = proposal_.condition(std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_,
+                                           particles_, store_.touch(*index_.find(innovation.landmark)), particle_blocks_);
+  judge(moments, innovation);
+  if (innovation.outcome == Outcome::kMatched) proposal_.accept(particles_);
+}
+
+/// At the pose that was drawn, with the landmark as it was before the scan.
+void FastSlam::update_landmark(const Observation& observation) {
+  const int landmark = *index_.find(*observation.id);
+  const auto before = store_.touch(landmark);
+  const auto after = store_.draft();
+  const fastslam::Sighting z = sighting(observation);
+  particle_blocks_.run([&](std::size_t begin, std::size_t end) {
+    fastslam::update_landmark(z, particles_, before, after, log_likelihood_.data(), begin, end);
+  });
+  store_.accept(landmark);
+  ++landmarks_[static_cast<std::size_t>(landmark)].observations;
 }
 
 /// NIS of the mixture: mean and covariance of the innovation over all particles.

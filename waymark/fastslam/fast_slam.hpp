@@ -10,10 +10,18 @@
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/landmark_update.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/proposal.hpp"
 
 namespace waymark {
 
+/// What a particle knows when it draws its next pose.
+enum class ProposalKind {
+  kMotion,    ///< the odometry alone (FastSLAM 1.0, Montemerlo et al. 2002)
+  kSightings  ///< the odometry and what is seen now (FastSLAM 2.0, Montemerlo et al. 2003)
+};
+
 struct FastSlamOptions {
+  ProposalKind proposal = ProposalKind::kSightings;
   int particles = 150;
   double resample_below = 0.5;   ///< resample when N_eff falls below this part of the particles
   double temper_below = 0.1;     ///< flatten weights when N_eff would fall below this part of the particles
@@ -67,6 +75,10 @@ class FastSlam final : public Filter {
   void move_particles();
   void update(std::span<const Observation> observations);
   void compare(const Observation& observation, Innovation& innovation);
+  void condition(const Observation& observation, Innovation& innovation);
+  void propose(std::span<const Observation> observations);
+  void update_landmark(const Observation& observation);
+  [[nodiscard]] Eigen::Matrix2d noise(const Observation& observation) const;
   void judge(const fastslam::InnovationMoments& moments, Innovation& innovation);
   void weigh();
   void resample();
@@ -87,6 +99,7 @@ class FastSlam final : public Filter {
   fastslam::ParticleBlocks particle_blocks_;
   fastslam::Particles particles_;
   fastslam::LandmarkStore store_;
+  fastslam::Proposal proposal_;
   AlignedArray<double> log_likelihood_;
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;

@@ -66,24 +66,27 @@ InnovationMoments update_landmark(const Sighting& z, const Particles& p, const L
     const double Z_aa = S_aa + z.R_rr;
     const double Z_at = S_at + R_at;
     const double Z_tt = S_tt + R_tt;
-    const double det_Z = Z_aa * Z_tt - Z_at * Z_at;
+    const double det_z = Z_aa * Z_tt - Z_at * Z_at;
 
     // f = Z^-1 e, so that d^2 = e . f and m' = m + Sigma f, turned back into the world.
-    const double f_a = (Z_tt * nu_r - Z_at * nu_t) / det_Z;
-    const double f_t = (Z_aa * nu_t - Z_at * nu_r) / det_Z;
+    const double f_a = (Z_tt * nu_r - Z_at * nu_t) / det_z;
+    const double f_t = (Z_aa * nu_t - Z_at * nu_r) / det_z;
     const double step_a = S_aa * f_a + S_at * f_t;
     const double step_t = S_at * f_a + S_tt * f_t;
     after.x[i] = m.x + ux * step_a - uy * step_t;
     after.y[i] = m.y + uy * step_a + ux * step_t;
 
-    const double of_S = (z.R_rr * R_tt - R_at * R_at) / det_Z;
-    const double of_R = std::max(m.xx * m.yy - m.xy * m.xy, 0.0) / det_Z;
-    after.xx[i] = of_S * m.xx + of_R * (ux * ux * z.R_rr - 2.0 * ux * uy * R_at + uy * uy * R_tt);
-    after.xy[i] = of_S * m.xy + of_R * (ux * uy * (z.R_rr - R_tt) + (ux * ux - uy * uy) * R_at);
-    after.yy[i] = of_S * m.yy + of_R * (uy * uy * z.R_rr + 2.0 * ux * uy * R_at + ux * ux * R_tt);
+    const double weight_of_landmark = (z.R_rr * R_tt - R_at * R_at) / det_z;
+    const double weight_of_noise = std::max(m.xx * m.yy - m.xy * m.xy, 0.0) / det_z;
+    after.xx[i] = weight_of_landmark * m.xx +
+                  weight_of_noise * (ux * ux * z.R_rr - 2.0 * ux * uy * R_at + uy * uy * R_tt);
+    after.xy[i] = weight_of_landmark * m.xy +
+                  weight_of_noise * (ux * uy * (z.R_rr - R_tt) + (ux * ux - uy * uy) * R_at);
+    after.yy[i] = weight_of_landmark * m.yy +
+                  weight_of_noise * (uy * uy * z.R_rr + 2.0 * ux * uy * R_at + ux * ux * R_tt);
 
     const double d2 = nu_r * f_a + nu_t * f_t;
-    log_likelihood[i] = -0.5 * (d2 + std::log(det_Z / (r * r)));
+    log_likelihood[i] = -0.5 * (d2 + std::log(det_z / (r * r)));
 
     const double w = p.weight[i];
     const double nu = side_rad + wrap_angle(nu_b - side_rad);

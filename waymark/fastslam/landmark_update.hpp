@@ -37,12 +37,12 @@ using InnovationMoments = std::array<double, 6>;
 ///     Z = Sigma + R,   m' = m + Sigma Z^-1 e,   Sigma' = (det R Sigma + det Sigma R) / det Z.
 /// The last is (I - K H) Sigma as 2x2 matrices allow it to be written: a sum of positive terms. It stays
 /// positive however sharp the sensor, which the usual difference does not, and is cheaper than Joseph's form.
-InnovationMoments update_landmark(const Sighting& sighting, const Particles& particles,
-                                  const LandmarkColumns& before, const LandmarkColumns& after,
-                                  double* log_likelihood, std::size_t begin, std::size_t end);
+InnovationMoments update_landmark(const Sighting& z, const Particles& p, const LandmarkColumns& before,
+                                  const LandmarkColumns& after, double* log_likelihood, std::size_t begin,
+                                  std::size_t end);
 
 /// For each particle in [begin, end): the landmark that it sees for the first time, Sigma = Hm^-1 R Hm^-T.
-void place_landmark(const Sighting& sighting, const Particles& particles, const LandmarkColumns& landmark,
-                    std::size_t begin, std::size_t end);
+void place_landmark(const Sighting& z, const Particles& p, const LandmarkColumns& landmark, std::size_t begin,
+                    std::size_t end);
 
 }  // namespace waymark::fastslam
