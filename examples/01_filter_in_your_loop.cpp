@@ -4,7 +4,8 @@
 //   motion      increment in the robot frame, 3x3 covariance
 //   sighting    range r and bearing b of a landmark with an identity, 2x2 covariance
 //
-// The robot drives a circle around one landmark and past another; its wheels believe it turns 5 % less than it does.
+// The robot drives a circle around one landmark and past another; its wheels believe it turns 5 % less than
+// it does.
 
 #include <cmath>
 #include <cstdio>
@@ -33,7 +34,8 @@ int main() {
     Observations scan;
     for (int number = 0; number < 2; ++number) {
       const auto z = RangeBearingModel::linearize(T_world_robot, T_robot_sensor, landmarks[number]).predicted;
-      scan.push_back({LandmarkId{LandmarkId::Family::kMarker, number}, RangeBearing{z[0], z[1]}, sighting_noise});
+      scan.push_back(
+          {LandmarkId{LandmarkId::Family::kMarker, number}, RangeBearing{z[0], z[1]}, sighting_noise});
     }
     filter.correct(scan);
   }
@@ -41,8 +43,8 @@ int main() {
   const PoseEstimate pose = filter.pose();
   const double error_m = (pose.T_world_robot.position() - T_world_robot.position()).norm();
   const double odometry_error_m = (T_world_odometry.position() - T_world_robot.position()).norm();
-  std::printf("position off by %.3f m (odometry alone %.3f m), believed sigma %.3f m\n", error_m, odometry_error_m,
-              std::sqrt(pose.covariance.topLeftCorner<2, 2>().trace()));
+  std::printf("position off by %.3f m (odometry alone %.3f m), believed sigma %.3f m\n", error_m,
+              odometry_error_m, std::sqrt(pose.covariance.topLeftCorner<2, 2>().trace()));
   for (const LandmarkEstimate& landmark : filter.snapshot().landmarks)
     std::printf("landmark %d at (%.2f, %.2f), seen %d times\n", landmark.id.number, landmark.position_m.x(),
                 landmark.position_m.y(), landmark.observations);

@@ -25,12 +25,13 @@ int main(int argc, char** argv) {
   }
 
   int corrections = 0;
-  Pipeline pipeline(**filter, config.pipeline, config.odometry, config.sensor, config.observe, [&](const Step& step) {
-    if (step.correction == nullptr || ++corrections % 200 != 0) return;
-    const Pose2& pose = step.pose.T_world_robot;
-    std::printf("%8.2f s  (%.2f, %.2f) m  %.1f deg\n", to_seconds(step.stamp), pose.x_m, pose.y_m,
-                to_degrees(pose.theta_rad));
-  });
+  Pipeline pipeline(**filter, config.pipeline, config.odometry, config.sensor, config.observe,
+                    [&](const Step& step) {
+                      if (step.correction == nullptr || ++corrections % 200 != 0) return;
+                      const Pose2& pose = step.pose.T_world_robot;
+                      std::printf("%8.2f s  (%.2f, %.2f) m  %.1f deg\n", to_seconds(step.stamp), pose.x_m,
+                                  pose.y_m, to_degrees(pose.theta_rad));
+                    });
   while (true) {
     auto event = opened->source->next();
     if (!event) {

@@ -63,8 +63,7 @@ Particles::Particles(int count, const Pose2& T_world_robot)
       sin_theta(static_cast<std::size_t>(count)),
       log_weight(static_cast<std::size_t>(count)),
       weight(static_cast<std::size_t>(count)) {
-  for (std::size_t i = 0; i < weight.size(); ++i)
-    set_pose(i, T_world_robot);
+  for (std::size_t i = 0; i < weight.size(); ++i) set_pose(i, T_world_robot);
   make_weights_equal(*this);
 }
 
@@ -104,7 +103,8 @@ void move(Particles& p, const Motion& motion, const StreamKey& key, ParticleBloc
       const Eigen::Vector3d d = mean + L * Eigen::Vector3d(n0, n1, n2);
       const double c = p.cos_theta[i];
       const double s = p.sin_theta[i];
-      p.set_pose(i, {p.x_m[i] + c * d.x() - s * d.y(), p.y_m[i] + s * d.x() + c * d.y(), p.theta_rad[i] + d.z()});
+      p.set_pose(
+          i, {p.x_m[i] + c * d.x() - s * d.y(), p.y_m[i] + s * d.x() + c * d.y(), p.theta_rad[i] + d.z()});
     }
   });
 }

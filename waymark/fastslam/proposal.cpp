@@ -23,7 +23,8 @@ Proposal::Proposal(int particles)
 void Proposal::start(const Particles& particles, const Motion& motion, ParticleBlocks& blocks) {
   blocks.run([&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const PoseEstimate after = propagate({particles.pose(static_cast<int>(i)), Eigen::Matrix3d::Zero()}, motion);
+      const PoseEstimate after =
+          propagate({particles.pose(static_cast<int>(i)), Eigen::Matrix3d::Zero()}, motion);
       const Pose2& T = after.T_world_robot;
       now_[i] = {{T.x_m, T.y_m, T.theta_rad}, after.covariance};
     }
@@ -35,7 +36,8 @@ InnovationMoments Proposal::condition(const RangeBearing& z, const Eigen::Matrix
                                       const LandmarkColumns& landmark, ParticleBlocks& blocks) {
   const auto linearize = [&](std::size_t i) {
     const Eigen::Vector3d& mu = now_[i].mean;
-    return RangeBearingModel::linearize({mu.x(), mu.y(), mu.z()}, T_robot_sensor, {landmark.x[i], landmark.y[i]});
+    return RangeBearingModel::linearize({mu.x(), mu.y(), mu.z()}, T_robot_sensor,
+                                        {landmark.x[i], landmark.y[i]});
   };
   const double side_rad = RangeBearingModel::innovation(z, linearize(0).predicted).y();
   return blocks.sum([&](std::size_t begin, std::size_t end) {
@@ -66,9 +68,10 @@ InnovationMoments Proposal::condition(const RangeBearing& z, const Eigen::Matrix
   });
 }
 
-void Proposal::accept(Particles& particles) {
+void Proposal::accept(Particles& particles, double evidence) {
   std::swap(now_, draft_);
-  for (std::size_t i = 0; i < log_likelihood_.size(); ++i) particles.log_weight[i] += log_likelihood_[i];
+  for (std::size_t i = 0; i < log_likelihood_.size(); ++i)
+    particles.log_weight[i] += evidence * log_likelihood_[i];
 }
 
 void Proposal::sample(Particles& particles, const StreamKey& key, ParticleBlocks& blocks) const {
@@ -78,7 +81,8 @@ void Proposal::sample(Particles& particles, const StreamKey& key, ParticleBlocks
       const double n0 = random.normal();
       const double n1 = random.normal();
       const double n2 = random.normal();
-      const Eigen::Vector3d x = now_[i].mean + semidefinite_root(now_[i].covariance) * Eigen::Vector3d(n0, n1, n2);
+      const Eigen::Vector3d x =
+          now_[i].mean + semidefinite_root(now_[i].covariance) * Eigen::Vector3d(n0, n1, n2);
       particles.set_pose(i, {x.x(), x.y(), x.z()});
     }
   });

@@ -15,9 +15,9 @@ namespace waymark::fastslam {
 /// motion model and takes in one sighting after the other before anything is drawn from it, so that particles
 /// land where the sensor says they may.
 ///
-/// With nu = z - h(mu, m), Z = Hm Sigma Hm^T + R and L = Hx P Hx^T + Z, each sighting multiplies the weight by
-/// N(nu; 0, L) and moves mu += K nu, P -= K L K^T, K = P Hx^T L^-1: the weights multiply to the exact joint
-/// marginal, and P equals (Hx^T Z^-1 Hx + P^-1)^-1 without inverting a P that may be singular.
+/// With nu = z - h(mu, m), Z = Hm Sigma Hm^T + R and L = Hx P Hx^T + Z, each sighting multiplies the weight
+/// by N(nu; 0, L) and moves mu += K nu, P -= K L K^T, K = P Hx^T L^-1: the weights multiply to the exact
+/// joint marginal, and P equals (Hx^T Z^-1 Hx + P^-1)^-1 without inverting a P that may be singular.
 class Proposal {
  public:
   explicit Proposal(int particles);
@@ -31,8 +31,9 @@ class Proposal {
                               const Particles& particles, const LandmarkColumns& landmark,
                               ParticleBlocks& blocks);
 
-  /// Takes the last sighting in: into mu and P, and into the log weights of the particles.
-  void accept(Particles& particles);
+  /// Takes the last sighting in: into mu and P, and with the power `evidence` of its likelihood into the
+  /// weights.
+  void accept(Particles& particles, double evidence);
 
   /// Draws each particle from its proposal.
   void sample(Particles& particles, const StreamKey& key, ParticleBlocks& blocks) const;
