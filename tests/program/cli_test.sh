@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# The program as a user meets it. Usage: cli_test.sh WAYMARK
+set -uo pipefail
+waymark=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# refuses STATUS WORDS COMMAND...: the command ends with STATUS and one line on standard error that has WORDS in it.
+refuses() {
+  local status=$1 words=$2
+  shift 2
+  "$waymark" "$@" >out.txt 2>err.txt
+  local got=$?
+  [ "$got" -eq "$status" ] || fail "waymark $*: status $got, expected $status"
+  [ "$(wc -l <err.txt)" -eq 1 ] || fail "waymark $*: expected one line, got: $(cat err.txt)"
+  grep -qF -- "$words" err.txt || fail "waymark $*: '$words' is not in: $(cat err.txt)"
+}
+
+# does COMMAND...: the command succeeds and says nothing on standard error.
+does() {
+  "$waymark" "$@" >out.txt 2>err.txt || fail "waymark $*: status $?: $(cat err.txt)"
+  [ ! -s err.txt ] || fail "waymark $*: complains: $(cat err.txt)"
+}
+
+# Wrong usage.
+refuses 2 'waymark --help' frobnicate
+refuses 2 'input' run
+refuses 2 'sensor.range_sigma_m' run sim:square -o o --set sensor.range_sigma=1
+refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 0
+refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
+refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
+refuses 2 'square' run sim:sqare -o o
+refuses 2 'observe' run sim:square -o o --observe bearing
+refuses 2 'nowhere.yaml' run sim:square -o o --config nowhere.yaml
+printf 'ekf:\n  capacity: -3\n' >bad.yaml
+refuses 2 'bad.yaml:2' config --validate bad.yaml
+
+# Inputs that are no logs.
+refuses 2 'nowhere' run nowhere -o o
+mkdir empty
+refuses 2 'empty' run empty -o o
+refuses 2 'empty' check empty
+refuses 2 'nowhere.tum' eval nowhere.tum --truth empty
+
+# A log, whole and damaged.
+does sim square -o log --seed 3
+does check log
+grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to run'
+does run log -o whole
+for file in trajectory.tum map.csv map.waymark config.yaml metrics.json report.html; do
+  [ -s "whole/$file" ] || fail "run wrote no $file"
+done
+does run log -o again --config whole/config.yaml --threads 2
+for file in trajectory.tum map.csv; do
+  cmp -s "whole/$file" "again/$file" || fail "$file differs when run again with its own config and two threads"
+done
+does eval whole --truth log --json
+grep -q position_rmse_m out.txt || fail 'eval prints no errors'
+does eval whole/trajectory.tum --truth whole/trajectory.tum
+does run sim:square --seed 3 -o memory
+cmp -s whole/trajectory.tum memory/trajectory.tum || fail 'a log from memory gives another path than from disk'
+
+damage() { # damage FILE SED-SCRIPT: a copy of the log in damaged/ with one file changed
+  rm -rf damaged partial
+  cp -r log damaged
+  sed -i "$2" "damaged/$1"
+}
+damage observations.csv '900s/.*/12.5,3,nan,0.1/'
+refuses 2 'observations.csv:900' run damaged -o partial
+[ -s partial/trajectory.tum ] || fail 'what was computed before the bad row is not on disk'
+damage observations.csv '900s/.*/12.5,3/'
+refuses 2 'observations.csv:900' run damaged -o partial
+damage wheels.csv '700s/,.*/,inf,1/'
+refuses 2 'wheels.csv:700' run damaged -o partial
+damage wheels.csv '700s/^[^,]*/0.5/'
+refuses 2 'wheels.csv:700' run damaged -o partial
+damage observations.csv '800s/^\([^,]*,[^,]*\),[^,]*/\1,-2/'
+refuses 2 'observations.csv:800' run damaged -o partial
+damage log.yaml 's/track_m/trak_m/'
+refuses 2 'track_m' run damaged -o partial
+damage log.yaml 's/^waymark_log.*/waymark_log: 1\nwheels: {/'
+refuses 2 'log.yaml' run damaged -o partial
+rm -rf damaged && cp -r log damaged && : >damaged/wheels.csv
+refuses 2 'wheels.csv' run damaged -o partial
+rm -rf damaged && cp -r log damaged && head -c 5000 log/wheels.csv >damaged/wheels.csv
+"$waymark" run damaged -o partial >out.txt 2>err.txt
+[ $? -le 2 ] || fail 'a truncated file ends the program abnormally'
+rm -rf damaged && cp -r log damaged && head -c 5000 /dev/urandom >damaged/observations.csv
+refuses 2 'observations.csv' run damaged -o partial
+
+# An output that cannot be written.
+: >a-file
+refuses 2 'a-file' run log -o a-file/out
+
+# Ctrl-C in the middle: status 1, and the results so far are on disk.
+"$waymark" run sim:square -o stopped --set sim.laps=100 --set sim.sensor_rate_hz=60 --filter fastslam --particles 2000 >out.txt 2>err.txt &
+pid=$!
+sleep 5
+kill -INT "$pid"
+wait "$pid"
+status=$?
+[ "$status" -eq 1 ] || fail "Ctrl-C: status $status, expected 1"
+[ -s stopped/trajectory.tum ] || fail 'Ctrl-C: no trajectory on disk'
+[ -s stopped/report.html ] || fail 'Ctrl-C: no report on disk'
+
+# --json prints JSON and nothing else.
+"$waymark" run log -o o --json 2>/dev/null | node -e 'JSON.parse(require("fs").readFileSync(0))' || fail 'run --json prints no JSON'
+"$waymark" check log --json | node -e 'JSON.parse(require("fs").readFileSync(0))' || fail 'check --json prints no JSON'
+"$waymark" demo -o demo --json | node -e 'JSON.parse(require("fs").readFileSync(0))' || fail 'demo --json prints no JSON'
+[ -s demo/report.html ] || fail 'demo wrote no report'
+
+# Every level of help shows an example.
+for command in '' run demo sim eval check config; do
+  # shellcheck disable=SC2086
+  "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
+done
+
+[ "$failures" -eq 0 ] && echo "all passed"
+exit "$failures"
