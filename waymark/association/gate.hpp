@@ -7,7 +7,7 @@
 namespace waymark {
 
 struct GateOptions {
-  double probability = 0.9999;  ///< part of the true sightings that may pass
+  double probability = 0.999999;  ///< part of the true sightings that may pass
 };
 
 void describe(Schema& schema, GateOptions& options);
