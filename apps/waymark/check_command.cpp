@@ -54,14 +54,14 @@ struct Contents {
 };
 
 const char* name_of(const EventContent& content) {
-  static constexpr std::array names{"wheel angles", "velocity",     "steering",    "odometry poses",
-                                    "images",       "observations", "ground truth"};
-  return names[content.index()];
+  static constexpr std::array kNames{"wheel angles", "velocity",     "steering",    "odometry poses",
+                                     "images",       "observations", "ground truth"};
+  return kNames[content.index()];
 }
 
 const char* kind_of(const Measurement& value) {
-  static constexpr std::array kinds{"range and bearing", "range", "bearing", "pixel"};
-  return kinds[value.index()];
+  static constexpr std::array kKinds{"range and bearing", "range", "bearing", "pixel"};
+  return kKinds[value.index()];
 }
 
 void look_at(const Observations& observations, Stamp stamp, const Pose2& T_robot_sensor, Contents& contents) {

@@ -43,9 +43,9 @@ class ProposalTest : public testing::Test {
   Particles particles_{kParticles, Pose2{0.1, 0.2, 0.3}};
   Proposal proposal_{kParticles};
   OwnedColumns landmark_{kParticles, random_};
-  Eigen::Matrix2d R_ = test::random_covariance<2>(random_, 1e-3);
+  Eigen::Matrix2d noise_ = test::random_covariance<2>(random_, 1e-3);
   RangeBearing z_{2.8, -0.2};
-  Pose2 T_robot_sensor_{0.1, -0.05, 0.2};
+  Pose2 mount_{0.1, -0.05, 0.2};
 };
 
 /// What one particle's proposal shows of itself: the mean, when it is drawn without spread, is the pose it is
@@ -61,14 +61,13 @@ TEST_F(ProposalTest, WithoutASightingItIsTheMotionModel) {
 
 TEST_F(ProposalTest, ARobotThatStandsStillIsNotMovedAndWeighsAsIn1_0) {
   proposal_.start(particles_, Motion{}, blocks_);
-  proposal_.condition(z_, R_, T_robot_sensor_, particles_, landmark_.columns(), blocks_);
+  proposal_.condition(z_, noise_, mount_, particles_, landmark_.columns(), blocks_);
   proposal_.accept(particles_, 1.0);
   proposal_.sample(particles_, {1, StreamPurpose::kMotion, 0}, blocks_);
   for (int i = 0; i < kParticles; ++i) {
     const auto m = landmark_.columns().at(static_cast<std::size_t>(i));
-    const auto [predicted, Hx, Hm] =
-        RangeBearingModel::linearize(Pose2{0.1, 0.2, 0.3}, T_robot_sensor_, {m.x, m.y});
-    const Eigen::Matrix2d Z = Hm * Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}} * Hm.transpose() + R_;
+    const auto [predicted, Hx, Hm] = RangeBearingModel::linearize(Pose2{0.1, 0.2, 0.3}, mount_, {m.x, m.y});
+    const Eigen::Matrix2d Z = Hm * Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}} * Hm.transpose() + noise_;
     const Eigen::Vector2d nu = RangeBearingModel::innovation(z_, predicted);
     const double log_likelihood = -0.5 * (nu.dot(Z.inverse() * nu) + std::log(Z.determinant()));
     EXPECT_NEAR(particles_.log_weight[static_cast<std::size_t>(i)], log_likelihood,
@@ -120,7 +119,7 @@ TEST_F(ProposalTest, ASightingThatIsNotAcceptedLeavesNoTrace) {
   other.start(untouched, motion, blocks_);
   other.sample(untouched, {1, StreamPurpose::kMotion, 0}, blocks_);
   proposal_.start(particles_, motion, blocks_);
-  proposal_.condition(z_, R_, T_robot_sensor_, particles_, landmark_.columns(), blocks_);
+  proposal_.condition(z_, noise_, mount_, particles_, landmark_.columns(), blocks_);
   proposal_.sample(particles_, {1, StreamPurpose::kMotion, 0}, blocks_);
   for (int i = 0; i < kParticles; ++i) EXPECT_EQ(particles_.pose(i), untouched.pose(i));
 }

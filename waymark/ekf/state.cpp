@@ -103,7 +103,7 @@ void State::predict(const Motion& motion) {
 
 void State::join_robot_rows() {
   if (!pending_) return;
-  double* row_x = &P_[0];
+  double* row_x = P_.data();
   double* row_y = &P_[ld_];
   const double* row_theta = &P_[2 * ld_];
   for (std::size_t j = 3; j < size(); ++j) {
