@@ -1,9 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <memory>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "bench/ekf_bench.hpp"
 #include "bench/machine.hpp"
@@ -35,7 +35,8 @@ std::string to_text(const nlohmann::ordered_json& params) {
 }
 
 void print_text(const Machine& machine, const std::vector<BenchResult>& results) {
-  fmt::print("{}, {} cores, {}, multiply-add peak {:.1f} GFLOP/s\n", machine.cpu, machine.cores, machine.instruction_set, machine.fma_gflops);
+  fmt::print("{}, {} cores, {}, multiply-add peak {:.1f} GFLOP/s\n", machine.cpu, machine.cores,
+             machine.instruction_set, machine.fma_gflops);
   for (const auto& result : results)
     fmt::print("{:<30}{:<52}{:>12.4g} {}\n", result.name, to_text(result.params), result.value, result.unit);
 }
@@ -50,7 +51,8 @@ void print_json(const Machine& machine, const std::vector<BenchResult>& results)
                      {"compiler", __VERSION__}};
   json["results"] = nlohmann::ordered_json::array();
   for (const auto& result : results)
-    json["results"].push_back({{"name", result.name}, {"params", result.params}, {"value", result.value}, {"unit", result.unit}});
+    json["results"].push_back(
+        {{"name", result.name}, {"params", result.params}, {"value", result.value}, {"unit", result.unit}});
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -60,7 +62,8 @@ Result<void> bench(const Request& request) {
   for (const Suite& suite : kSuites) {
     if (!request.wants(suite.name)) continue;
     ProgressBar bar(suite.name, request.verbosity);
-    for (auto& result : suite.run(machine, [&bar](double fraction) { bar.show(fraction); })) results.push_back(std::move(result));
+    for (auto& result : suite.run(machine, [&bar](double fraction) { bar.show(fraction); }))
+      results.push_back(std::move(result));
   }
   if (request.verbosity.json) print_json(machine, results);
   if (request.verbosity.talks()) print_text(machine, results);
@@ -74,7 +77,8 @@ void add_bench(CLI::App& app, Work& work) {
   auto request = std::make_shared<Request>();
   std::vector<std::string> names;
   for (const Suite& suite : kSuites) names.emplace_back(suite.name);
-  command->add_option("suite", request->suites, "which part; without it everything")->check(CLI::IsMember(names));
+  command->add_option("suite", request->suites, "which part; without it everything")
+      ->check(CLI::IsMember(names));
   add_verbosity(*command, request->verbosity);
   command->footer("Example:\n  waymark bench\n  waymark bench ekf --json > bench.json");
   command->callback([&work, request] { work = [request] { return bench(*request); }; });

@@ -1,8 +1,8 @@
 #include "waymark/kernels/multiply_add.hpp"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace waymark::kernels {
 namespace {

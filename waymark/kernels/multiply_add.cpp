@@ -23,7 +23,8 @@ MultiplyAdds run(std::size_t rounds) {
     for (auto& chain : chains) chain = hn::MulAdd(chain, factor, factor);
   auto sum = hn::Zero(tag);
   for (const auto& chain : chains) sum = hn::Add(sum, chain);
-  return {2.0 * static_cast<double>(rounds * kChains * hn::Lanes(tag)), hn::GetLane(hn::SumOfLanes(tag, sum))};
+  return {2.0 * static_cast<double>(rounds * kChains * hn::Lanes(tag)),
+          hn::GetLane(hn::SumOfLanes(tag, sum))};
 }
 
 const char* name() { return hwy::TargetName(HWY_TARGET); }

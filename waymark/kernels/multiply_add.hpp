@@ -7,7 +7,8 @@ namespace waymark::kernels {
 /// The instruction set that the kernels use on this machine, as Highway calls it.
 [[nodiscard]] const char* instruction_set();
 
-/// `rounds` rounds of independent multiply-adds on vectors of double, all in registers: what a processor can do at most.
+/// `rounds` rounds of independent multiply-adds on vectors of double, all in registers: what a processor can
+/// do at most.
 struct MultiplyAdds {
   double flop = 0.0;  ///< two per lane and multiply-add
   double sum = 0.0;   ///< of all lanes, so that the work is not optimised away

@@ -7,11 +7,12 @@
 #include <span>
 #include <string>
 
-#include "plain_ekf.hpp"
-#include "synthetic_run.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/eval/median.hpp"
+
+#include "plain_ekf.hpp"
+#include "synthetic_run.hpp"
 
 namespace waymark::app {
 namespace {
@@ -26,8 +27,8 @@ struct Size {
   bool textbook;  ///< O(n^3): only where it ends soon
   bool threads;   ///< large enough for a second thread
 };
-constexpr std::array kSizes{Size{50, 200, true, false}, Size{200, 100, false, false}, Size{1000, 20, false, true},
-                            Size{2000, 8, false, true}};
+constexpr std::array kSizes{Size{50, 200, true, false}, Size{200, 100, false, false},
+                            Size{1000, 20, false, true}, Size{2000, 8, false, true}};
 
 Duration wall_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -67,26 +68,31 @@ Contender ours(const std::string& name, nlohmann::ordered_json params, std::shar
           }};
 }
 
-Contender plain(const std::string& name, nlohmann::ordered_json params, PlainEkf::Form form, const SyntheticRun& run) {
+Contender plain(const std::string& name, nlohmann::ordered_json params, PlainEkf::Form form,
+                const SyntheticRun& run) {
   auto filter = std::make_shared<PlainEkf>(form, run.start, run.first_look);
-  return {name, std::move(params), [filter](const SyntheticRun::Step& step) { filter->step(step.motion, step.observations); }};
+  return {name, std::move(params),
+          [filter](const SyntheticRun::Step& step) { filter->step(step.motion, step.observations); }};
 }
 
-/// How often the step of `slow` fits into that of `fast`: the median over rounds of the ratio within a round, so that
-/// whatever else the machine did meanwhile hits both.
+/// How often the step of `slow` fits into that of `fast`: the median over rounds of the ratio within a round,
+/// so that whatever else the machine did meanwhile hits both.
 double ratio(const Contender& slow, const Contender& fast) {
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < slow.rounds_ms.size(); ++i) ratios.push_back(slow.rounds_ms[i] / fast.rounds_ms[i]);
+  for (std::size_t i = 0; i < slow.rounds_ms.size(); ++i)
+    ratios.push_back(slow.rounds_ms[i] / fast.rounds_ms[i]);
   return *eval::median(ratios);
 }
 
-nlohmann::ordered_json with(nlohmann::ordered_json params, const char* key, const nlohmann::ordered_json& value) {
+nlohmann::ordered_json with(nlohmann::ordered_json params, const char* key,
+                            const nlohmann::ordered_json& value) {
   params[key] = value;
   return params;
 }
 
 /// The function-block table of one filter, without the first look.
-void append_blocks(std::vector<BenchResult>& results, const nlohmann::ordered_json& params, const FunctionBlocks& start, const FunctionBlocks& end) {
+void append_blocks(std::vector<BenchResult>& results, const nlohmann::ordered_json& params,
+                   const FunctionBlocks& start, const FunctionBlocks& end) {
   for (std::size_t i = 0; i < end.rows().size(); ++i) {
     const auto& row = end.rows()[i];
     const auto calls = static_cast<double>(row.calls - start.rows()[i].calls);
@@ -98,7 +104,10 @@ void append_blocks(std::vector<BenchResult>& results, const nlohmann::ordered_js
 class SizeBench {
  public:
   SizeBench(const Size& size, const Machine& machine)
-      : size_(size), machine_(machine), run_(make_synthetic_run(size.landmarks, kSightings, static_cast<int>(kRounds * size.steps_per_round))) {}
+      : size_(size),
+        machine_(machine),
+        run_(make_synthetic_run(size.landmarks, kSightings,
+                                static_cast<int>(kRounds * size.steps_per_round))) {}
 
   std::vector<BenchResult> measure(const BenchProgress& progress) {
     const auto invariant = start_filter(run_, ekf::Consistency::kInvariant, 1);
@@ -120,12 +129,15 @@ class SizeBench {
   /// The invariant filter first: the others are compared with it.
   void contend(const std::shared_ptr<EkfSlam>& invariant) {
     contenders_.push_back(ours("ekf.step", with(params_, "mode", "invariant"), invariant));
-    contenders_.push_back(ours("ekf.step", with(params_, "mode", "standard"), start_filter(run_, ekf::Consistency::kStandard, 1)));
+    contenders_.push_back(ours("ekf.step", with(params_, "mode", "standard"),
+                               start_filter(run_, ekf::Consistency::kStandard, 1)));
     contenders_.push_back(plain("ekf.plain_rank_update", params_, PlainEkf::Form::kRankUpdate, run_));
-    if (size_.textbook) contenders_.push_back(plain("ekf.plain_textbook", params_, PlainEkf::Form::kTextbook, run_));
+    if (size_.textbook)
+      contenders_.push_back(plain("ekf.plain_textbook", params_, PlainEkf::Form::kTextbook, run_));
     for (const int threads : {1, 2}) {
       if (!size_.threads) continue;
-      contenders_.push_back(ours("ekf.step_wall", with(params_, "threads", threads), start_filter(run_, ekf::Consistency::kInvariant, threads)));
+      contenders_.push_back(ours("ekf.step_wall", with(params_, "threads", threads),
+                                 start_filter(run_, ekf::Consistency::kInvariant, threads)));
       contenders_.back().clock = wall_time;
     }
   }
@@ -133,7 +145,8 @@ class SizeBench {
   void append_comparisons(std::vector<BenchResult>& results) const {
     const Contender& invariant = contenders_.front();
     for (const Contender& contender : contenders_)
-      if (contender.name.starts_with("ekf.plain")) results.push_back({contender.name + "_ratio", params_, ratio(contender, invariant), "x"});
+      if (contender.name.starts_with("ekf.plain"))
+        results.push_back({contender.name + "_ratio", params_, ratio(contender, invariant), "x"});
     const double n = 3.0 + 2.0 * size_.landmarks;
     const double bound_ms = n * n * 2.0 * kSightings / (machine_.fma_gflops * 1e6);
     results.push_back({"ekf.flop_bound", params_, bound_ms, "ms"});

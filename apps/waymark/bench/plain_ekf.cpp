@@ -1,8 +1,9 @@
 #include "plain_ekf.hpp"
 
+#include <vector>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <vector>
 
 #include "waymark/core/angle.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -101,7 +102,8 @@ void PlainEkf::update_by_rank(std::span<const Observation> observations) {
     const Vector a = column(row.at);
     const Vector b = column(row.at + 1);
     for (Eigen::Index r = 0; r < 2; ++r)
-      PHt.col(i + r) = x * row.H_pose(r, 0) + y * row.H_pose(r, 1) + theta * row.H_pose(r, 2) + a * row.H_landmark(r, 0) + b * row.H_landmark(r, 1);
+      PHt.col(i + r) = x * row.H_pose(r, 0) + y * row.H_pose(r, 1) + theta * row.H_pose(r, 2) +
+                       a * row.H_landmark(r, 0) + b * row.H_landmark(r, 1);
     nu.segment<2>(i) = row.nu;
   }
   for (Eigen::Index i = 0; i < D; i += 2) {

@@ -1,19 +1,22 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
 
 namespace waymark::app {
 
-/// EKF-SLAM as one writes it with Eigen, identities known and numbered from 0: what our own steps are compared with.
+/// EKF-SLAM as one writes it with Eigen, identities known and numbered from 0: what our own steps are
+/// compared with.
 class PlainEkf {
  public:
   enum class Form {
     kTextbook,    ///< dense H, P = (I - K H) P: O(n^3)
-    kRankUpdate,  ///< H P from the non-zero columns, one triangle of P, Eigen's rankUpdate: n^2 D flop, as ours
+    kRankUpdate,  ///< H P from the non-zero columns, one triangle of P, Eigen's rankUpdate: n^2 D flop, as
+                  ///< ours
   };
 
   PlainEkf(Form form, const Motion& start, std::span<const Observation> all_landmarks);

@@ -24,7 +24,8 @@ class Field {
 
   Motion drive() {
     truth_ = truth_ * Pose2{kStep_m, 0.0, turn_rad_};
-    const Pose2 measured{kStep_m + sigma_[0] * random_.normal(), sigma_[1] * random_.normal(), turn_rad_ + sigma_[2] * random_.normal()};
+    const Pose2 measured{kStep_m + sigma_[0] * random_.normal(), sigma_[1] * random_.normal(),
+                         turn_rad_ + sigma_[2] * random_.normal()};
     return {measured, sigma_.cwiseAbs2().asDiagonal()};
   }
 
@@ -50,8 +51,10 @@ class Field {
   Observation sight(std::size_t i) {
     const Eigen::Vector2d sigma(0.05, to_radians(0.5));
     const auto z = RangeBearingModel::linearize(truth_, Pose2{}, landmarks_[i]).predicted;
-    const RangeBearing noisy{z[0] + sigma[0] * random_.normal(), wrap_angle(z[1] + sigma[1] * random_.normal())};
-    return {LandmarkId{LandmarkId::Family::kMarker, static_cast<int>(i)}, noisy, Eigen::Matrix2d(sigma.cwiseAbs2().asDiagonal())};
+    const RangeBearing noisy{z[0] + sigma[0] * random_.normal(),
+                             wrap_angle(z[1] + sigma[1] * random_.normal())};
+    return {LandmarkId{LandmarkId::Family::kMarker, static_cast<int>(i)}, noisy,
+            Eigen::Matrix2d(sigma.cwiseAbs2().asDiagonal())};
   }
 
   RandomStream random_{1, StreamPurpose::kSimulation};
@@ -70,7 +73,8 @@ SyntheticRun make_synthetic_run(int landmarks, int sightings, int steps) {
   run.first_look = field.look_at_all();
   for (int i = 0; i < steps; ++i) {
     const Motion motion = field.drive();
-    run.steps.push_back({motion, field.look_at_nearest(static_cast<std::size_t>(std::min(sightings, landmarks)))});
+    run.steps.push_back(
+        {motion, field.look_at_nearest(static_cast<std::size_t>(std::min(sightings, landmarks)))});
   }
   return run;
 }

@@ -13,7 +13,7 @@ struct SyntheticRun {
     Motion motion;              ///< 0.3 m ahead, with noise
     Observations observations;  ///< of the nearest landmarks: 0.05 m, 0.5 deg
   };
-  Motion start;             ///< no movement, a little uncertainty: every entry of the covariance gets populated
+  Motion start;  ///< no movement, a little uncertainty: every entry of the covariance gets populated
   Observations first_look;  ///< all landmarks, so that every step runs at the full state size
   std::vector<Step> steps;
 };
