@@ -15,6 +15,8 @@
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
 
+#include "consistency.hpp"
+
 namespace waymark {
 namespace {
 
@@ -207,6 +209,7 @@ int main(int argc, char** argv) {
   study->callback([&] { status = waymark::study(study_seeds, settings); });
   for (auto* command : {mrclam, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
+  waymark::add_consistency(app);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

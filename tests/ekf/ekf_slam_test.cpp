@@ -65,7 +65,7 @@ TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
 
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
-  EkfSlam filter = make(world, 8);
+  EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, {}, world.mount());
   drive(filter, world, 10);
   std::vector<Observation> scan(6, world.sight(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
@@ -92,6 +92,37 @@ TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
   EXPECT_EQ(filter.correct(scan).count(Outcome::kAdded), 80);
   filter.predict({{0.01, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
   EXPECT_EQ(filter.correct(scan).count(Outcome::kMatched), 80);
+}
+
+TEST(EkfSlam, AFullMapGivesItsLeastUsefulLandmarkForANewOne) {
+  for (const auto evict : {ekf::Eviction::kInformation, ekf::Eviction::kArticle}) {
+    CircleWorld world(6);
+    EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, {}, world.mount());
+    drive(filter, world, 20);
+    Observation unseen = world.sight(3);
+    unseen.id->number = 99;
+    const auto& correction = filter.correct({&unseen, 1});
+    EXPECT_EQ(correction.innovations[0].outcome, Outcome::kAdded);
+    ASSERT_EQ(correction.removed.size(), 1U);
+    const auto evicted = correction.removed[0];
+    EXPECT_NE(evicted, *unseen.id);
+    EXPECT_EQ(filter.state().landmarks(), 8);
+    for (const auto& landmark : filter.snapshot().landmarks) EXPECT_NE(landmark.id, evicted);
+    EXPECT_TRUE(filter.correct({}).removed.empty());
+    // What is left still belongs together: all but the evicted one are found where they are.
+    filter.predict(world.move());
+    const auto scan = world.look();
+    EXPECT_GE(filter.correct(scan).count(Outcome::kMatched), 6);
+  }
+}
+
+TEST(EkfSlam, AScanOfMoreNewLandmarksThanFitKeepsTheFirstOfThem) {
+  CircleWorld world(7);
+  EkfSlam filter = make(world, 3);
+  const auto& correction = filter.correct(world.look());
+  EXPECT_EQ(correction.count(Outcome::kAdded), 3);
+  EXPECT_EQ(correction.count(Outcome::kMapFull), 5);
+  EXPECT_TRUE(correction.removed.empty());
 }
 
 TEST(EkfSlam, ASteadyStateStepAllocatesNothing) {

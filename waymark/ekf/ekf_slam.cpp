@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "waymark/core/gaussian.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -21,6 +22,12 @@ Outcome admissible(const Observation& observation) {
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
 }
 
+bool is_finite(const Motion& motion) {
+  const Pose2& T = motion.increment;
+  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
+         motion.covariance.allFinite();
+}
+
 }  // namespace
 
 void describe(Schema& schema, EkfOptions& options) {
@@ -29,20 +36,26 @@ void describe(Schema& schema, EkfOptions& options) {
       "where the filter linearises: invariant error, first estimates, or latest estimates as in the article");
   schema.integer("ekf.capacity", options.capacity, {1, 20000},
                  "most landmarks in the map; memory is taken once");
+  schema.choice(
+      "ekf.evict", options.evict, {"information", "article", "none"},
+      "which landmark leaves a full map: the one that told least about the pose, the one of largest I - K H "
+      "as in the article, or none, so that new ones are refused");
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads)
     : state_(2, options.capacity, options.consistency, threads),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
-      index_(static_cast<std::size_t>(options.capacity)) {
+      index_(static_cast<std::size_t>(options.capacity)),
+      management_(options.evict, options.capacity) {
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
+  removed_.reserve(static_cast<std::size_t>(options.capacity));
   sightings_.reserve(ekf::State::kMaxSightings);
 }
 
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
-  if (!is_still(motion)) state_.predict(motion);
+  if (!is_still(motion) && is_finite(motion)) state_.predict(motion);
   timer.finish(kPredict);
 }
 
@@ -56,11 +69,15 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
   timer.finish(kAdd);
-  correction_ = {innovations_, {}};
+  correction_ = {innovations_, removed_};
   return correction_;
 }
 
-void EkfSlam::prepare(std::size_t count) { innovations_.assign(count, {}); }
+void EkfSlam::prepare(std::size_t count) {
+  innovations_.assign(count, {});
+  removed_.clear();
+  management_.begin_scan();
+}
 
 bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
   return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index),
@@ -82,25 +99,40 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
   }
   const auto landmark = index_.find(innovation.landmark);
   if (!landmark) {
-    innovation.outcome = state_.landmarks() < state_.capacity() ? Outcome::kAdded : Outcome::kMapFull;
+    innovation.outcome = Outcome::kAdded;  // if add() finds room
     return;
   }
-  const auto sighting =
-      linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance);
-  const auto nis = mahalanobis_squared<2>(sighting.nu, state_.innovation_covariance(sighting));
-  innovation.dof = nis ? 2 : 0;
-  innovation.nis = nis.value_or(0.0);
+  compare(innovation,
+          linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance));
+}
+
+/// Gates one linearised sighting, and tells the map management how useful its landmark was.
+void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting) {
+  innovation.outcome = Outcome::kUnusable;
+  if (!sighting) return;
+  const Eigen::Matrix2d S = state_.innovation_covariance(*sighting);
+  const auto nis = mahalanobis_squared<2>(sighting->nu, S);
+  if (!nis) return;
+  innovation.dof = 2;
+  innovation.nis = *nis;
   innovation.gate = gate_.threshold(2);
-  if (!nis) innovation.outcome = Outcome::kUnusable;
-  if (nis && *nis > innovation.gate) innovation.outcome = Outcome::kGated;
+  innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
+  if (!management_.evicts()) return;
+  if (innovation.outcome == Outcome::kMatched)
+    management_.matched(sighting->landmark,
+                        {state_.pose().covariance, state_.pose_correlation(*sighting), S, sighting->H_pose});
+  else
+    management_.missed(sighting->landmark);
 }
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.
-ekf::Sighting EkfSlam::linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const {
+std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const RangeBearing& z,
+                                                const Eigen::Matrix2d& R) const {
   const Eigen::Vector2d p = state_.landmark(landmark).head<2>();
   const auto here = RangeBearingModel::linearize(state_.pose().T_world_robot, T_robot_sensor_, p);
   const auto jacobians = RangeBearingModel::linearize(state_.linearization_pose(), T_robot_sensor_,
                                                       state_.linearization_landmark(landmark).head<2>());
+  if (!(std::min(here.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
   ekf::Sighting sighting;
   sighting.landmark = landmark;
   sighting.nu = RangeBearingModel::innovation(z, here.predicted);
@@ -119,8 +151,12 @@ void EkfSlam::update(std::span<const Observation> observations) {
     for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next) {
       if (innovations_[next].outcome != Outcome::kMatched) continue;
       const int landmark = *index_.find(innovations_[next].landmark);
-      sightings_.push_back(linearize(landmark, std::get<RangeBearing>(observations[next].value),
-                                     *observations[next].covariance));
+      const auto sighting = linearize(landmark, std::get<RangeBearing>(observations[next].value),
+                                      *observations[next].covariance);
+      if (sighting)
+        sightings_.push_back(*sighting);
+      else
+        innovations_[next].outcome = Outcome::kUnusable;
     }
     const bool done = state_.update(sightings_);
     for (std::size_t i = first; i < next; ++i) {
@@ -133,8 +169,27 @@ void EkfSlam::update(std::span<const Observation> observations) {
   }
 }
 
+/// Whether there is room for one more landmark, if need be by removing one.
+bool EkfSlam::make_room() {
+  if (state_.landmarks() < state_.capacity()) return true;
+  const auto least_useful = management_.evicts() ? management_.least_useful() : std::nullopt;
+  if (least_useful) remove(*least_useful);
+  return least_useful.has_value();
+}
+
+void EkfSlam::remove(int landmark) {
+  const LandmarkId id = landmarks_[static_cast<std::size_t>(landmark)].id;
+  state_.remove(landmark);
+  management_.removed(landmark);
+  landmarks_[static_cast<std::size_t>(landmark)] = landmarks_.back();
+  index_.assign(landmarks_.back().id, landmark);
+  index_.erase(id);
+  landmarks_.pop_back();
+  removed_.push_back(id);
+}
+
 void EkfSlam::add(std::size_t index, const Observation& observation) {
-  if (state_.landmarks() == state_.capacity()) {
+  if (!make_room()) {
     innovations_[index].outcome = Outcome::kMapFull;
     return;
   }
@@ -149,6 +204,7 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
       inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
   index_.assign(*observation.id, state_.add(position, G_pose, noise));
   landmarks_.push_back({*observation.id, 1});
+  management_.added();
 }
 
 Snapshot EkfSlam::snapshot() const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "waymark/association/gate.hpp"
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/ekf/map_management.hpp"
 #include "waymark/ekf/state.hpp"
 
 namespace waymark {
@@ -13,12 +15,14 @@ namespace waymark {
 struct EkfOptions {
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   int capacity = 1000;
+  ekf::Eviction evict = ekf::Eviction::kInformation;
 };
 
 void describe(Schema& schema, EkfOptions& options);
 
 /// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known
-/// identities, gated one by one; a first sighting adds its landmark.
+/// identities, gated one by one; a first sighting adds its landmark, in the place of the least useful one
+/// when the map is full.
 class EkfSlam final : public Filter {
  public:
   EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1);
@@ -40,8 +44,13 @@ class EkfSlam final : public Filter {
 
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
-  [[nodiscard]] ekf::Sighting linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const;
+  void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
+  /// Nothing where the landmark is believed to be at the sensor itself.
+  [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const RangeBearing& z,
+                                                       const Eigen::Matrix2d& R) const;
   void update(std::span<const Observation> observations);
+  [[nodiscard]] bool make_room();
+  void remove(int landmark);
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
 
@@ -49,9 +58,11 @@ class EkfSlam final : public Filter {
   Gate gate_;
   Pose2 T_robot_sensor_;
   IdIndex index_;
+  ekf::MapManagement management_;
   std::vector<Landmark> landmarks_;       // by index in the state
   std::vector<Innovation> innovations_;   // one per observation of the last correct()
   std::vector<ekf::Sighting> sightings_;  // of one block of the update
+  std::vector<LandmarkId> removed_;       // by the last correct()
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};
 };

@@ -135,6 +135,12 @@ Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
   return H * joint_covariance(sighting.landmark) * H.transpose() + sighting.R;
 }
 
+Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) const {
+  Eigen::Matrix<double, 2, 6> H;
+  H << sighting.H_pose, sighting.H_landmark;
+  return joint_covariance(sighting.landmark).topRows<3>() * H.transpose();
+}
+
 bool State::update(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (sightings.empty()) return true;

@@ -65,6 +65,9 @@ class State {
   /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
 
+  /// C = P(pose, :) H^T of one sighting: how what it measures goes with (x, y, theta). O(1).
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
+
   /// Exact update with all sightings at once (Vincke et al. 2012, equations 10 to 12, as P -= W^T W with
   /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive
   /// definite.
