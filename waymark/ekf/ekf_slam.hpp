@@ -6,14 +6,22 @@
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/compressed_state.hpp"
 
 namespace waymark {
+
+/// Whether the map outside of the robot's region is left alone for the time being.
+enum class Compress { kAuto, kAlways, kNever };
 
 struct EkfOptions {
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   int capacity = 1000;
+  Compress compressed = Compress::kAuto;
+  int region = 64;  ///< landmarks
 };
+
+/// With kAuto a map is compressed when it is three times a region: below that it costs more than it saves.
+[[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
 void describe(Schema& schema, EkfOptions& options);
 
@@ -30,7 +38,7 @@ class EkfSlam final : public Filter {
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
 
-  [[nodiscard]] const ekf::State& state() const { return state_; }
+  [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
 
  private:
   struct Landmark {
@@ -45,7 +53,7 @@ class EkfSlam final : public Filter {
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
 
-  ekf::State state_;
+  ekf::CompressedState state_;
   Gate gate_;
   Pose2 T_robot_sensor_;
   IdIndex index_;
