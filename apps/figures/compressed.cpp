@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -21,6 +22,7 @@ constexpr double kDensity_per_m2 = 0.09;  // about ten landmarks in sight
 constexpr double kRangeSigma_m = 0.05;
 constexpr double kBearingSigma_rad = 0.02;
 constexpr double kRowSpacing_m = 9.0;
+constexpr double kMargin_m = 4.0;
 
 struct Frame {
   Motion motion;
@@ -30,13 +32,15 @@ struct Frame {
 /// A robot in a field of landmarks that it first maps row by row, then crosses slowly the other way.
 class Field {
  public:
-  explicit Field(int landmarks) : side_m_(std::sqrt(landmarks / kDensity_per_m2)), truth_{0.0, 0.0, 0.0} {
+  explicit Field(int landmarks) : side_m_(std::sqrt(landmarks / kDensity_per_m2)), truth_{kMargin_m, kMargin_m, 0.0} {
     for (int i = 0; i < landmarks; ++i) landmarks_.emplace_back(random_.uniform(0.0, side_m_), random_.uniform(0.0, side_m_));
     for (const bool across : {false, true}) plan_rows(across);
   }
 
   /// Nothing is left to be mapped.
   [[nodiscard]] bool mapped() const { return next_ >= waypoints_.size() / 2; }
+
+  [[nodiscard]] const Pose2& truth() const { return truth_; }
 
   Frame next() {
     const double step_m = mapped() ? 0.05 : 0.25;
@@ -49,9 +53,10 @@ class Field {
 
  private:
   void plan_rows(bool across) {
+    const double end_m = side_m_ - kMargin_m;
     bool back = false;
-    for (double row_m = 0.0; row_m <= side_m_ + 0.5 * kRowSpacing_m; row_m += kRowSpacing_m, back = !back) {
-      for (const double along_m : {back ? side_m_ : 0.0, back ? 0.0 : side_m_})
+    for (double row_m = kMargin_m; row_m <= end_m + 0.5 * kRowSpacing_m; row_m += kRowSpacing_m, back = !back) {
+      for (const double along_m : {back ? end_m : kMargin_m, back ? kMargin_m : end_m})
         waypoints_.push_back(across ? Eigen::Vector2d(row_m, along_m) : Eigen::Vector2d(along_m, row_m));
     }
   }
@@ -96,6 +101,7 @@ double milliseconds(Duration d) { return 1e3 * to_seconds(d); }
 struct Cost {
   std::vector<double> frames_ms;
   double mean_ms = 0.0;
+  double sightings = 0.0;  // in a frame
   int landmarks = 0;
   int regions = 0;
 };
@@ -108,6 +114,7 @@ Cost measure(int landmarks, Compress compressed, int steps, int threads) {
   Cost cost;
   for (int i = 0; i < steps; ++i) {
     const Frame frame = field.next();
+    cost.sightings += static_cast<double>(frame.scan.size()) / steps;
     const Duration before = thread_cpu_time();
     advance(filter, frame);
     cost.frames_ms.push_back(milliseconds(thread_cpu_time() - before));
@@ -123,33 +130,46 @@ void print(const char* name, const Cost& cost) {
   const auto quantile = [&](double q) {
     return cost.frames_ms[static_cast<std::size_t>(q * static_cast<double>(cost.frames_ms.size() - 1))];
   };
-  fmt::print("{:<12}{:>10}{:>10}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, cost.landmarks, cost.regions, cost.mean_ms,
+  fmt::print("{:<12}{:>10}{:>10}{:>10.1f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, cost.landmarks, cost.regions, cost.sightings, cost.mean_ms,
              quantile(0.5), quantile(0.99), quantile(1.0));
 }
 
-/// The same drive with and without compression.
-void compare(const char* name, ekf::Consistency consistency, int landmarks, int steps, int threads) {
+double pose_nees(const Pose2& truth, const PoseEstimate& pose) {
+  return mahalanobis_squared<3>(difference(truth, pose.T_world_robot), pose.covariance).value_or(NAN);
+}
+
+/// The same drive with and without compression, or else without and with the sightings in reverse order: what rounding
+/// alone makes of it.
+void compare(const char* name, ekf::Consistency consistency, Compress compressed, int landmarks, int steps, int threads) {
   Field field(landmarks);
   EkfSlam whole({consistency, landmarks, Compress::kNever}, {}, {}, threads);
-  EkfSlam local({consistency, landmarks, Compress::kAlways}, {}, {}, threads);
+  EkfSlam local({consistency, landmarks, compressed}, {}, {}, threads);
   double position_m = 0.0;
   double heading_rad = 0.0;
   double sigma = 0.0;  // in units of the whole filter's own uncertainty
+  double nees = 0.0;
+  double nees_local = 0.0;
   for (int i = 0; i < steps;) {
     i += field.mapped() ? 1 : 0;
-    const Frame frame = field.next();
-    for (EkfSlam* filter : {&whole, &local}) advance(*filter, frame);
+    Frame frame = field.next();
+    advance(whole, frame);
+    if (compressed == Compress::kNever) std::ranges::reverse(frame.scan);
+    advance(local, frame);
     const PoseEstimate a = whole.pose();
     const PoseEstimate b = local.pose();
+    nees += field.mapped() ? pose_nees(field.truth(), a) / steps : 0.0;
+    nees_local += field.mapped() ? pose_nees(field.truth(), b) / steps : 0.0;
     const Eigen::Vector2d gap_m = a.T_world_robot.position() - b.T_world_robot.position();
     position_m = std::max(position_m, gap_m.norm());
     heading_rad = std::max(heading_rad, std::abs(wrap_angle(a.T_world_robot.theta_rad - b.T_world_robot.theta_rad)));
     sigma = std::max(sigma, gap_m.norm() / std::sqrt(a.covariance.topLeftCorner<2, 2>().trace() + 1e-12));
   }
+  fmt::print("{:<20}{:>10}{:>8.2f}{:>8.2f}{:>12.2e}{:>12.2e}{:>12.2e}", name, local.state().closed_regions(), nees, nees_local, position_m,
+             heading_rad, sigma);
+  if (compressed == Compress::kNever) return fmt::print("\n");
   const MapState map = whole.save();
   const MapState map_local = local.save();
-  fmt::print("{:<12}{:>10}{:>12.2e}{:>12.2e}{:>12.2e}{:>12.2e}{:>12.2e}\n", name, local.state().closed_regions(), position_m,
-             heading_rad, sigma, (map.landmarks - map_local.landmarks).cwiseAbs().maxCoeff(),
+  fmt::print("{:>12.2e}{:>12.2e}\n", (map.landmarks - map_local.landmarks).cwiseAbs().maxCoeff(),
              (map.covariance - map_local.covariance).cwiseAbs().maxCoeff() / map.covariance.cwiseAbs().maxCoeff());
 }
 
@@ -157,15 +177,18 @@ void compare(const char* name, ekf::Consistency consistency, int landmarks, int 
 
 int compressed(int steps, int threads) {
   fmt::print("compressed EKF: thread CPU per frame in ms over {} frames through a mapped field, {} threads\n", steps, threads);
-  fmt::print("{:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "compressed", "landmarks", "regions", "mean", "p50", "p99", "max");
+  fmt::print("{:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "compressed", "landmarks", "regions", "seen", "mean", "p50", "p99", "max");
   for (const int landmarks : {100, 1000, 3000}) print("true", measure(landmarks, Compress::kAlways, steps, threads));
   print("false", measure(1000, Compress::kNever, std::min(steps, 500), threads));
   fmt::print("\nlargest difference from the whole filter, 1000 landmarks mapped and crossed for {} frames\n", steps);
-  fmt::print("{:<12}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "mode", "regions", "position m", "heading", "of sigma", "map m",
+  fmt::print("{:<20}{:>10}{:>8}{:>8}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "mode", "regions", "NEES", "theirs", "position m", "heading", "of sigma", "map m",
              "covariance");
-  compare("standard", ekf::Consistency::kStandard, 1000, steps, threads);
-  compare("fej", ekf::Consistency::kFej, 1000, steps, threads);
-  compare("invariant", ekf::Consistency::kInvariant, 1000, steps, threads);
+  using ekf::Consistency;
+  compare("standard", Consistency::kStandard, Compress::kAlways, 1000, steps, threads);
+  compare("standard, rounding", Consistency::kStandard, Compress::kNever, 1000, steps, threads);
+  compare("fej", Consistency::kFej, Compress::kAlways, 1000, steps, threads);
+  compare("fej, rounding", Consistency::kFej, Compress::kNever, 1000, steps, threads);
+  compare("invariant", Consistency::kInvariant, Compress::kAlways, 1000, steps, threads);
   return 0;
 }
 

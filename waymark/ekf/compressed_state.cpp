@@ -13,8 +13,8 @@ namespace {
 constexpr int kSmallestRegion = State::kMaxSightings * 3 / 2;
 /// A region has room for this many times what is seen at once, and a part in so many of it stays for the next.
 constexpr int kRegionPerView = 3;
-/// Flop that every update() spends on the map: about a tenth of a millisecond.
-constexpr double kShare = 3e6;
+/// Over how many updates the work of a switch of region is spread, if there is time.
+constexpr double kSpread = 256.0;
 
 int region_capacity(int capacity, const Compression& compression) {
   return std::min(capacity, std::max(compression.onset, kRegionPerView * compression.region));
@@ -33,7 +33,8 @@ CompressedState::CompressedState(int dimension, int capacity, Consistency consis
       compression_{std::max(compression.region, kSmallestRegion), std::max(compression.onset, kSmallestRegion)},
       active_(dimension, region_capacity(capacity, compression_), consistency, threads),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
-      passive_(dimension, slots_for(capacity, compression_), slots_for(capacity, compression_) > 0 ? active_.capacity() : 0),
+      passive_(dimension, slots_for(capacity, compression_), slots_for(capacity, compression_) > 0 ? active_.capacity() : 0,
+               threads > 1),
       local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
       base_(active_.offset(active_.capacity()), dimension),
       minus_psi_base_(base_.rows(), dimension),
@@ -84,12 +85,12 @@ void CompressedState::bring_in(std::span<const Sighting> sightings) {
   for (Sighting& sighting : local_sightings_) sighting.landmark = local_of(sighting.landmark);
 }
 
-/// The more of the room is taken, the more is done, so that nothing is left when the region must be closed.
+/// An even share; and more if more work than room is left, halfway through the region and later, so that none is left
+/// when it is full.
 void CompressedState::work() {
-  const int room = std::max(limit() - active_.landmarks(), 0);
-  const double pace = entered_ > 0 ? static_cast<double>(entered_) / static_cast<double>(room + entered_) : 0.0;
-  passive_.work(std::max(kShare, pace * passive_.remaining()));
-  entered_ = 0;
+  const double room_left = std::max(limit() - active_.landmarks(), 0) / static_cast<double>(std::max(room_, 1));
+  const double due = passive_.remaining() - closing_work_ * std::min(1.0, 2.0 * room_left);
+  passive_.work(std::max(closing_work_ / kSpread, due));
 }
 
 int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
@@ -134,7 +135,6 @@ void CompressedState::enter(int slot) {
   local_of_slot_[static_cast<std::size_t>(slot)] = static_cast<int>(members_.size());
   members_.push_back(slot);
   seen_.push_back(now_);
-  ++entered_;
 }
 
 void CompressedState::leave(int local) {
@@ -171,14 +171,17 @@ void CompressedState::close_region() {
   passive_.close(members_, active_, compressing_ ? &since_ : nullptr);
   let_the_others_leave();
   since_.restart(active_.size());
+  closing_work_ = passive_.remaining();
   compressing_ = true;
   most_seen_ = seen_this_step_;
+  room_ = limit() - active_.landmarks();
   ++closed_regions_;
 }
 
 /// All but those seen last.
 void CompressedState::let_the_others_leave() {
-  const auto stay = static_cast<std::size_t>(std::max(limit() / kRegionPerView, kMaxSightings));
+  const int in_view = std::min(seen_this_step_, kMaxSightings);
+  const auto stay = static_cast<std::size_t>(std::max(limit() / kRegionPerView, in_view));
   Clock oldest = 0;
   std::ptrdiff_t as_old = active_.landmarks();
   if (stay < seen_.size()) {
@@ -199,7 +202,7 @@ Eigen::Vector3d CompressedState::displacement(int slot) const {
   const auto n = static_cast<Eigen::Index>(active_.size());
   passive_.columns(slot, members_, base_.topRows(n));
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  moved.head(dimension()) = base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
+  moved.head(dimension()).noalias() = base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
   if (active_.consistency() == Consistency::kInvariant)
     moved.head<2>() = (turn_jacobian(since_.turn()) * moved.head<2>()).eval();
   return moved;
@@ -213,11 +216,11 @@ CompressedState::Recalled CompressedState::recall(int slot) const {
   for (int a = 0; a < dimension(); ++a) {
     since_.multiply_phi(base_.col(a).head(n), cross_.col(a).head(n));
     since_.multiply_minus_psi(base_.col(a).head(n), minus_psi_base_.col(a).head(n));
+    cross_.col(a).head<2>() += active_.pending() * cross_(2, a);
   }
-  cross_.topRows<2>() += active_.pending() * cross_.row(2);
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
   c.head(dimension()) = cross_.row(2);
-  now.covariance.topLeftCorner(dimension(), dimension()) += base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
+  now.covariance.topLeftCorner(dimension(), dimension()).noalias() += base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
   now.covariance += now.shear * c.transpose() + c * now.shear.transpose() +
                     active_.covariance(2, 2) * now.shear * now.shear.transpose();
   for (Eigen::Index i = 0; i < n; ++i)
@@ -246,8 +249,9 @@ Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting)
     return active_.innovation_covariance(local);
   }
   const Recalled now = recall(slot_of(sighting.landmark));
-  const auto H_landmark = sighting.H_landmark.leftCols(dimension());
-  const Eigen::Matrix2d cross = sighting.H_pose * cross_.topRows<3>() * H_landmark.transpose();
+  Eigen::Matrix3d P_pose_landmark = Eigen::Matrix3d::Zero();
+  P_pose_landmark.leftCols(dimension()) = cross_.topRows<3>();
+  const Eigen::Matrix2d cross = sighting.H_pose * P_pose_landmark * sighting.H_landmark.transpose();
   return sighting.H_pose * pose().covariance * sighting.H_pose.transpose() + cross + cross.transpose() +
          sighting.H_landmark * now.covariance * sighting.H_landmark.transpose() + sighting.R;
 }

@@ -20,10 +20,11 @@ struct Compression {
 /// The state of the whole map at the cost of a local one: the compressed filter of Guivant and Nebot (2001).
 ///
 /// The robot and the landmarks of its region are an ekf::State of their own, the active one. The others are left as they
-/// were when the region was opened; what they have missed is gathered in accumulators and worked in later. A landmark
+/// were when the region was opened; what they have missed is gathered in accumulators and worked in later, by a second
+/// thread if there is one. A landmark
 /// that is sighted again enters the region there and then. When the region is full it is closed, the landmarks seen last
-/// stay for the next one, and the map is brought up to date step by step meanwhile: an amount of work per update() that
-/// has it done before the next region is full. Everything asked for is answered as if that work were done.
+/// stay for the next one, and the map is brought up to date meanwhile: a little at every update(), and in time before the
+/// next region is full. Everything asked for is answered as if that work were done.
 ///
 /// Exactly the same filter as State with kStandard and kFej. With kInvariant the landmarks outside of the region are
 /// turned with the robot once per region and not at every update, which is the same to first order.
@@ -57,8 +58,9 @@ class CompressedState {
   /// Landmarks in the present region.
   [[nodiscard]] int active_landmarks() const { return active_.landmarks(); }
   [[nodiscard]] bool is_active(int index) const { return local_of(index) >= 0; }
-  /// Regions closed so far, of which all work is done but perhaps for the last.
+  /// Regions closed so far.
   [[nodiscard]] int closed_regions() const { return closed_regions_; }
+  /// Nothing is left to do for the last of them.
   [[nodiscard]] bool settled() const { return passive_.done(); }
 
  private:
@@ -110,7 +112,8 @@ class CompressedState {
   Clock now_ = 0;
   int seen_this_step_ = 0;
   int most_seen_ = 0;  // in one step of this region
-  int entered_ = 0;    // the region since the last update()
+  int room_ = 0;       // when the region was opened
+  double closing_work_ = 0.0;  // flop, then
 
   std::vector<Sighting> local_sightings_;
   // Of the landmark recalled last, n_a x dimension: its columns when the region was opened, -psi times them, and now.

@@ -21,7 +21,7 @@ std::size_t ceil_multiple(std::size_t value, std::size_t of) { return (value + o
 }  // namespace
 
 // The robot's rows are filled up to whole landmarks, so that none lies in two blocks of columns.
-PassiveMap::PassiveMap(int dimension, int slots, int members)
+PassiveMap::PassiveMap(int dimension, int slots, int members, bool own_thread)
     : dimension_(dimension),
       robot_rows_(ceil_multiple(3, static_cast<std::size_t>(dimension))),
       ld_(kernels::padded_stride(offset(slots))),
@@ -39,7 +39,8 @@ PassiveMap::PassiveMap(int dimension, int slots, int members)
       psi_B_(region_ld_ * ld_),
       phi_B_(region_ld_ * kColumns),
       d_(ld_),
-      e_(ld_) {
+      e_(ld_),
+      background_(own_thread && slots > 0) {
   rows_.reserve(region_ld_);
   asked_.reserve(region_ld_);
 }
@@ -50,6 +51,7 @@ Eigen::Vector3d PassiveMap::point(const Buffer& buffer, int slot) const {
 }
 
 void PassiveMap::clear(int slot) {
+  background_.wait();
   slots_ = std::max(slots_, slot + 1);
   for (std::size_t at = offset(slot); at < offset(slot + 1); ++at) {
     for (std::size_t j = 0; j < size(); ++j) P(at, j) = 0.0;
@@ -109,7 +111,12 @@ double PassiveMap::next_cost() const {
   return 2.0 * na * static_cast<double>(kRows * (n_ - next_row_));
 }
 
-double PassiveMap::remaining() const {
+bool PassiveMap::done() {
+  background_.wait();
+  return !working_;
+}
+
+double PassiveMap::remaining() {
   if (done()) return 0.0;
   const auto na = static_cast<double>(rows_.size());
   const auto columns = static_cast<double>(n_ - std::min(n_, next_block_ * kColumns));
@@ -129,18 +136,23 @@ void PassiveMap::do_next() {
 void PassiveMap::work(double flop) {
   if (done()) return;
   credit_ += flop;
-  while (!done() && next_cost() <= credit_) {
+  background_.start<&PassiveMap::spend_credit>(this);
+}
+
+void PassiveMap::spend_credit() {
+  while (working_ && next_cost() <= credit_) {
     credit_ -= next_cost();
     do_next();
   }
 }
 
 void PassiveMap::finish() {
-  while (!done()) do_next();
+  background_.wait();
+  while (working_) do_next();
 }
 
 void PassiveMap::settle_slot(int slot) {
-  if (!done() && offset(slot) < n_) settle(offset(slot) / kColumns);
+  if (working_ && offset(slot) < n_) settle(offset(slot) / kColumns);
 }
 
 /// Phase one for one block of columns.
@@ -191,17 +203,19 @@ void PassiveMap::write_back(std::size_t begin, std::size_t end) {
 double PassiveMap::present(std::size_t i, std::size_t j) {
   const auto [row, column] = std::minmax(i, j);
   double p = P(row, column);
-  if (done() || row < next_row_ || column >= n_ || inside_[row] || inside_[column]) return p;
+  if (!working_ || row < next_row_ || column >= n_ || inside_[row] || inside_[column]) return p;
   for (std::size_t k = 0; k < rows_.size(); ++k) p -= B_[k * ld_ + row] * psi_B_[k * ld_ + column];
   return shear_ ? p + d_[row] * e_[column] + e_[row] * d_[column] : p;
 }
 
 Eigen::Vector3d PassiveMap::position(int slot) {
+  background_.wait();
   settle_slot(slot);
   return point(x_, slot);
 }
 
 Eigen::Matrix3d PassiveMap::covariance(int slot) {
+  background_.wait();
   settle_slot(slot);
   Eigen::Matrix3d P_slot = Eigen::Matrix3d::Zero();
   for (int a = 0; a < dimension_; ++a)
@@ -211,6 +225,7 @@ Eigen::Matrix3d PassiveMap::covariance(int slot) {
 }
 
 void PassiveMap::columns(int slot, std::span<const int> members, Eigen::Ref<Eigen::MatrixXd> out) {
+  background_.wait();
   settle_slot(slot);
   for (const int member : members) settle_slot(member);
   list_rows(members, asked_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "waymark/core/aligned_array.hpp"
+#include "waymark/core/background.hpp"
 #include "waymark/ekf/accumulators.hpp"
 #include "waymark/ekf/state.hpp"
 
@@ -19,10 +20,12 @@ namespace waymark::ekf {
 ///
 /// What is asked for is computed on the spot where the work has not come there yet, so that nobody sees a difference.
 /// Everything is addressed by slot: a place for the robot, then one per landmark.
+///
+/// The work may be done by a second thread. All members wait for it first, so that it makes no other difference.
 class PassiveMap {
  public:
   /// For `slots` landmarks, of which up to `members` are in a region.
-  PassiveMap(int dimension, int slots, int members);
+  PassiveMap(int dimension, int slots, int members, bool own_thread);
 
   /// Row of a slot's first coordinate.
   [[nodiscard]] std::size_t offset(int slot) const { return robot_rows_ + static_cast<std::size_t>(slot * dimension_); }
@@ -36,10 +39,10 @@ class PassiveMap {
   /// others since the last region was closed; null if there are no others. The work for the last region must be done.
   void close(std::span<const int> members, const State& region, const Accumulators* since);
 
-  [[nodiscard]] bool done() const { return !working_; }
+  [[nodiscard]] bool done();
   /// Flop that are left to do.
-  [[nodiscard]] double remaining() const;
-  /// Does about as much; what is missing for the next piece of work is carried over.
+  [[nodiscard]] double remaining();
+  /// Does about as much, or has it done; what is missing for the next piece of work is carried over.
   void work(double flop);
   void finish();
 
@@ -50,7 +53,7 @@ class PassiveMap {
   [[nodiscard]] Eigen::Matrix3d covariance(int slot);
   /// The slot's columns of the covariance with the robot and `members`: a column for each coordinate.
   void columns(int slot, std::span<const int> members, Eigen::Ref<Eigen::MatrixXd> out);
-  /// Everything must be done.
+  /// Entry of the covariance; everything must be done.
   [[nodiscard]] double covariance(std::size_t i, std::size_t j) const { return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i]; }
 
  private:
@@ -64,6 +67,7 @@ class PassiveMap {
   void list_rows(std::span<const int> members, std::vector<std::size_t>& rows) const;
   void store(std::span<const int> members, const State& region);
   void take_over(const Accumulators& since, const State& region);
+  void spend_credit();
   [[nodiscard]] double next_cost() const;
   void do_next();
   void settle_slot(int slot);
@@ -102,6 +106,8 @@ class PassiveMap {
   Buffer phi_B_;                // of one block
   Buffer d_, e_;                // shear of the landmarks outside: P += d e^T + e d^T
   std::vector<std::size_t> asked_;  // scratch of columns()
+
+  Background background_;  // last: it ends before what it works on
 };
 
 }  // namespace waymark::ekf
