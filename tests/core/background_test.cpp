@@ -1,8 +1,8 @@
 #include "waymark/core/background.hpp"
 
-#include <gtest/gtest.h>
-
 #include <thread>
+
+#include <gtest/gtest.h>
 
 #include "support/allocation_counter.hpp"
 

@@ -7,8 +7,8 @@
 
 namespace waymark {
 
-/// One job at a time on a thread of its own, or at once on the caller's where there is none. Whoever waits before
-/// touching what the job touches sees the same either way. Starting a job allocates nothing.
+/// One job at a time on a thread of its own, or at once on the caller's where there is none. Whoever waits
+/// before touching what the job touches sees the same either way. Starting a job allocates nothing.
 class Background {
  public:
   explicit Background(bool own_thread);

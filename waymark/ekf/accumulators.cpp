@@ -9,8 +9,8 @@
 namespace waymark::ekf {
 namespace {
 
-using Strided = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, Eigen::Aligned64,
-                           Eigen::OuterStride<>>;
+using Strided = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>,
+                           Eigen::Aligned64, Eigen::OuterStride<>>;
 
 Strided matrix(const AlignedArray<double>& buffer, std::size_t n, std::size_t ld) {
   const auto size = static_cast<Eigen::Index>(n);
@@ -61,7 +61,8 @@ void Accumulators::project(std::span<const Sighting> sightings, const State& sta
       const Eigen::Vector3d H_landmark = sighting.H_landmark.row(r);
       std::fill_n(g, n_, 0.0);
       kernels::add_scaled_rows(g, phi_.data(), ld_, 3, H_pose.data(), n_);
-      kernels::add_scaled_rows(g, &phi_[state.offset(sighting.landmark) * ld_], ld_, d, H_landmark.data(), n_);
+      kernels::add_scaled_rows(g, &phi_[state.offset(sighting.landmark) * ld_], ld_, d, H_landmark.data(),
+                               n_);
     }
   }
 }
@@ -88,7 +89,8 @@ void Accumulators::append_new(int dimension, const Eigen::Matrix3d& G_pose) {
   grow(static_cast<std::size_t>(dimension));
   for (int a = 0; a < dimension; ++a) {
     const Eigen::Vector3d g = G_pose.row(a);
-    kernels::add_scaled_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], phi_.data(), ld_, 3, g.data(), n_);
+    kernels::add_scaled_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], phi_.data(), ld_, 3,
+                             g.data(), n_);
   }
 }
 
@@ -105,7 +107,9 @@ void Accumulators::append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, cons
   }
 }
 
-void Accumulators::multiply_phi(const ConstColumn& b, Column out) const { out.noalias() = matrix(phi_, n_, ld_) * b; }
+void Accumulators::multiply_phi(const ConstColumn& b, Column out) const {
+  out.noalias() = matrix(phi_, n_, ld_) * b;
+}
 
 void Accumulators::multiply_minus_psi(const ConstColumn& b, Column out) const {
   out.noalias() = matrix(minus_psi_, n_, ld_).selfadjointView<Eigen::Upper>() * b;

@@ -1,22 +1,24 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/ekf/state.hpp"
 
 namespace waymark::ekf {
 
-/// What a state of n values did since some moment to everything that it is correlated with (Guivant and Nebot 2001).
-/// Let B be its covariance at that moment with other values b that nothing has touched since. Then by now
+/// What a state of n values did since some moment to everything that it is correlated with (Guivant and Nebot
+/// 2001). Let B be its covariance at that moment with other values b that nothing has touched since. Then by
+/// now
 ///
 ///   P_ab = phi B,   P_bb = P_bb0 - B^T psi B,   x_b = x_b0 + B^T tau.
 ///
 /// For the invariant filter this leaves out how far b itself was moved: P_ab lacks P_a,theta d_b^T.
 ///
-/// All are n x n or n. A landmark that is new or comes in later gets a row and a column like the others; a new one has
-/// zeros in B. An update of D rows costs 3 n^2 D flop, which is 3 times what the state itself needs.
+/// All are n x n or n. A landmark that is new or comes in later gets a row and a column like the others; a
+/// new one has zeros in B. An update of D rows costs 3 n^2 D flop, three times what the state itself needs.
 class Accumulators {
  public:
   /// Memory for states of up to `capacity` values.
@@ -35,8 +37,8 @@ class Accumulators {
 
   /// The state is about to add a landmark at g(pose, z) with this dg/dpose.
   void append_new(int dimension, const Eigen::Matrix3d& G_pose);
-  /// The state is about to take in a landmark b: `B` is its column of B, n x dimension, and `d` by how much its heading
-  /// column was sheared.
+  /// The state is about to take in a landmark b: `B` is its column of B, n x dimension, and `d` by how much
+  /// its heading column was sheared.
   void append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, const Eigen::Vector3d& d);
 
   [[nodiscard]] std::size_t size() const { return n_; }

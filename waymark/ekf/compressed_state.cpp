@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
+#include <utility>
 
 #include "waymark/ekf/turn_jacobian.hpp"
 
@@ -11,7 +12,8 @@ namespace {
 
 /// A region can hold what one update sees and something else.
 constexpr int kSmallestRegion = State::kMaxSightings * 3 / 2;
-/// A region has room for this many times what is seen at once, and a part in so many of it stays for the next.
+/// A region has room for this many times what is seen at once, and a part in so many of it stays for the
+/// next.
 constexpr int kRegionPerView = 3;
 /// Over how many updates the work of a switch of region is spread, if there is time.
 constexpr double kSpread = 256.0;
@@ -27,14 +29,15 @@ int slots_for(int capacity, const Compression& compression) {
 
 }  // namespace
 
-CompressedState::CompressedState(int dimension, int capacity, Consistency consistency, const Compression& compression,
-                                 int threads)
+CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
+                                 const Compression& compression, int threads)
     : capacity_(capacity),
-      compression_{std::max(compression.region, kSmallestRegion), std::max(compression.onset, kSmallestRegion)},
+      compression_{std::max(compression.region, kSmallestRegion),
+                   std::max(compression.onset, kSmallestRegion)},
       active_(dimension, region_capacity(capacity, compression_), consistency, threads),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
-      passive_(dimension, slots_for(capacity, compression_), slots_for(capacity, compression_) > 0 ? active_.capacity() : 0,
-               threads > 1),
+      passive_(dimension, slots_for(capacity, compression_),
+               slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
       local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
       base_(active_.offset(active_.capacity()), dimension),
       minus_psi_base_(base_.rows(), dimension),
@@ -47,7 +50,8 @@ CompressedState::CompressedState(int dimension, int capacity, Consistency consis
 }
 
 int CompressedState::limit() const {
-  return std::clamp(kRegionPerView * most_seen_, compressing_ ? compression_.region : std::min(compression_.onset, capacity_),
+  return std::clamp(kRegionPerView * most_seen_,
+                    compressing_ ? compression_.region : std::min(compression_.onset, capacity_),
                     active_.capacity());
 }
 
@@ -85,15 +89,17 @@ void CompressedState::bring_in(std::span<const Sighting> sightings) {
   for (Sighting& sighting : local_sightings_) sighting.landmark = local_of(sighting.landmark);
 }
 
-/// An even share; and more if more work than room is left, halfway through the region and later, so that none is left
-/// when it is full.
+/// An even share; and more if more work than room is left, halfway through the region and later, so that none
+/// is left when it is full.
 void CompressedState::work() {
-  const double room_left = std::max(limit() - active_.landmarks(), 0) / static_cast<double>(std::max(room_, 1));
+  const double room_left =
+      std::max(limit() - active_.landmarks(), 0) / static_cast<double>(std::max(room_, 1));
   const double due = passive_.remaining() - closing_work_ * std::min(1.0, 2.0 * room_left);
   passive_.work(std::max(closing_work_ / kSpread, due));
 }
 
-int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose,
+                         const Eigen::Matrix3d& noise) {
   assert(landmarks() < capacity_);
   ++seen_this_step_;
   most_seen_ = std::max(most_seen_, seen_this_step_);
@@ -116,7 +122,8 @@ void CompressedState::remove(int index) {
   const int local = local_of(index);
   if (local < 0) free_slots_.push_back(slot);
   if (local >= 0) seen_[static_cast<std::size_t>(local)] = kRemoved;
-  if (local >= 0 && !compressing_) leave(local);  // else when the region is closed: the accumulators still need it
+  if (local >= 0 && !compressing_)
+    leave(local);  // else when the region is closed: the accumulators still need it
   slots_[static_cast<std::size_t>(index)] = slots_.back();
   slots_.pop_back();
 }
@@ -186,9 +193,11 @@ void CompressedState::let_the_others_leave() {
   std::ptrdiff_t as_old = active_.landmarks();
   if (stay < seen_.size()) {
     ranked_ = seen_;
-    std::nth_element(ranked_.begin(), ranked_.begin() + static_cast<std::ptrdiff_t>(stay) - 1, ranked_.end(), std::greater<>());
+    std::nth_element(ranked_.begin(), ranked_.begin() + static_cast<std::ptrdiff_t>(stay) - 1, ranked_.end(),
+                     std::greater<>());
     oldest = ranked_[stay - 1];
-    as_old = static_cast<std::ptrdiff_t>(stay) - std::ranges::count_if(seen_, [&](Clock seen) { return seen > oldest; });
+    as_old = static_cast<std::ptrdiff_t>(stay) -
+             std::ranges::count_if(seen_, [&](Clock seen) { return seen > oldest; });
   }
   for (int local = active_.landmarks() - 1; local >= 0; --local) {
     const Clock seen = seen_[static_cast<std::size_t>(local)];
@@ -202,7 +211,8 @@ Eigen::Vector3d CompressedState::displacement(int slot) const {
   const auto n = static_cast<Eigen::Index>(active_.size());
   passive_.columns(slot, members_, base_.topRows(n));
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  moved.head(dimension()).noalias() = base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
+  moved.head(dimension()).noalias() =
+      base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
   if (active_.consistency() == Consistency::kInvariant)
     moved.head<2>() = (turn_jacobian(since_.turn()) * moved.head<2>()).eval();
   return moved;
@@ -220,11 +230,13 @@ CompressedState::Recalled CompressedState::recall(int slot) const {
   }
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
   c.head(dimension()) = cross_.row(2);
-  now.covariance.topLeftCorner(dimension(), dimension()).noalias() += base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
+  now.covariance.topLeftCorner(dimension(), dimension()).noalias() +=
+      base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
   now.covariance += now.shear * c.transpose() + c * now.shear.transpose() +
                     active_.covariance(2, 2) * now.shear * now.shear.transpose();
   for (Eigen::Index i = 0; i < n; ++i)
-    cross_.row(i) += active_.covariance(static_cast<std::size_t>(i), 2) * now.shear.head(dimension()).transpose();
+    cross_.row(i) +=
+        active_.covariance(static_cast<std::size_t>(i), 2) * now.shear.head(dimension()).transpose();
   return now;
 }
 
@@ -239,7 +251,8 @@ Eigen::Matrix3d CompressedState::landmark_covariance(int index) const {
 
 Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
   if (is_active(index)) return active_.linearization_landmark(local_of(index));
-  return active_.consistency() == Consistency::kFej ? passive_.first_estimate(slot_of(index)) : landmark(index);
+  return active_.consistency() == Consistency::kFej ? passive_.first_estimate(slot_of(index))
+                                                    : landmark(index);
 }
 
 Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
@@ -260,42 +273,46 @@ Eigen::VectorXd CompressedState::mean() const {
   Eigen::VectorXd x(3 + dimension() * landmarks());
   const Pose2 robot = pose().T_world_robot;
   x.head<3>() << robot.x_m, robot.y_m, robot.theta_rad;
-  for (int i = 0; i < landmarks(); ++i) x.segment(3 + dimension() * i, dimension()) = landmark(i).head(dimension());
+  for (int i = 0; i < landmarks(); ++i)
+    x.segment(3 + dimension() * i, dimension()) = landmark(i).head(dimension());
   return x;
 }
 
+/// With A the active rows: P_AA from the active state, P_AB from recall(), P_BB = P_BB0 - B^T psi B and its
+/// shear.
 Eigen::MatrixXd CompressedState::covariance() const {
-  const Eigen::Index n = 3 + dimension() * landmarks();
-  const auto n_active = static_cast<Eigen::Index>(active_.size());
   passive_.finish();
-  // Where each row is to be found: in the active state, or else in the passive map.
-  Eigen::VectorXi active_row = Eigen::VectorXi::Constant(n, -1);
-  Eigen::VectorXi passive_row = Eigen::VectorXi::Constant(n, 0);
-  active_row.head<3>() << 0, 1, 2;
+  const Eigen::Index n = row(landmarks());
+  const auto n_active = static_cast<Eigen::Index>(active_.size());
   Eigen::MatrixXd base = Eigen::MatrixXd::Zero(n_active, n);
   Eigen::MatrixXd minus_psi_base = base;
   Eigen::MatrixXd cross = base;
   Eigen::VectorXd shear = Eigen::VectorXd::Zero(n);
   for (int i = 0; i < landmarks(); ++i) {
-    const Eigen::Index at = 3 + dimension() * i;
-    const auto first = is_active(i) ? active_.offset(local_of(i)) : passive_.offset(slot_of(i));
-    (is_active(i) ? active_row : passive_row).segment(at, dimension()).setLinSpaced(static_cast<int>(first), static_cast<int>(first) + dimension() - 1);
     if (is_active(i)) continue;
-    shear.segment(at, dimension()) = recall(slot_of(i)).shear.head(dimension());
-    base.middleCols(at, dimension()) = base_.topRows(n_active);
-    minus_psi_base.middleCols(at, dimension()) = minus_psi_base_.topRows(n_active);
-    cross.middleCols(at, dimension()) = cross_.topRows(n_active);
+    shear.segment(row(i), dimension()) = recall(slot_of(i)).shear.head(dimension());
+    base.middleCols(row(i), dimension()) = base_.topRows(n_active);
+    minus_psi_base.middleCols(row(i), dimension()) = minus_psi_base_.topRows(n_active);
+    cross.middleCols(row(i), dimension()) = cross_.topRows(n_active);
   }
-  const Eigen::VectorXd heading = cross.row(2);
-  Eigen::MatrixXd P = base.transpose() * minus_psi_base + shear * heading.transpose() + heading * shear.transpose() -
-                      active_.covariance(2, 2) * shear * shear.transpose();
+  const Eigen::VectorXd heading = cross.row(2);  // the shear is in it already
+  Eigen::MatrixXd P = base.transpose() * minus_psi_base + shear * heading.transpose() +
+                      heading * shear.transpose() - active_.covariance(2, 2) * shear * shear.transpose();
+  const auto place = [this](Eigen::Index i) {
+    const auto index = static_cast<int>(i - 3) / dimension();
+    const auto coordinate = static_cast<std::size_t>((i - 3) % dimension());
+    if (i < 3) return std::pair{true, static_cast<std::size_t>(i)};
+    if (is_active(index)) return std::pair{true, active_.offset(local_of(index)) + coordinate};
+    return std::pair{false, passive_.offset(slot_of(index)) + coordinate};
+  };
   for (Eigen::Index i = 0; i < n; ++i) {
+    const auto [i_active, a] = place(i);
     for (Eigen::Index j = i; j < n; ++j) {
-      const auto [a, b] = std::pair{active_row[i], active_row[j]};
-      if (a >= 0 && b >= 0) P(i, j) = active_.covariance(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-      else if (a >= 0) P(i, j) = cross(a, j);
-      else if (b >= 0) P(i, j) = cross(b, i);
-      else P(i, j) += passive_.covariance(static_cast<std::size_t>(passive_row[i]), static_cast<std::size_t>(passive_row[j]));
+      const auto [j_active, b] = place(j);
+      if (i_active && j_active) P(i, j) = active_.covariance(a, b);
+      if (i_active && !j_active) P(i, j) = cross(static_cast<Eigen::Index>(a), j);
+      if (!i_active && j_active) P(i, j) = cross(static_cast<Eigen::Index>(b), i);
+      if (!i_active && !j_active) P(i, j) += passive_.covariance(a, b);
       P(j, i) = P(i, j);
     }
   }

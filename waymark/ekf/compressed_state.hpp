@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "waymark/ekf/accumulators.hpp"
 #include "waymark/ekf/passive_map.hpp"
@@ -19,21 +20,24 @@ struct Compression {
 
 /// The state of the whole map at the cost of a local one: the compressed filter of Guivant and Nebot (2001).
 ///
-/// The robot and the landmarks of its region are an ekf::State of their own, the active one. The others are left as they
-/// were when the region was opened; what they have missed is gathered in accumulators and worked in later, by a second
-/// thread if there is one. A landmark
-/// that is sighted again enters the region there and then. When the region is full it is closed, the landmarks seen last
-/// stay for the next one, and the map is brought up to date meanwhile: a little at every update(), and in time before the
-/// next region is full. Everything asked for is answered as if that work were done.
+/// The robot and the landmarks of its region are an ekf::State of their own, the active one. The others are
+/// left as they were when the region was opened; what they have missed is gathered in accumulators and worked
+/// in later, by a second thread if there is one. A landmark that is sighted again enters the region there and
+/// then. When the region is full it is closed, the landmarks seen last stay for the next one, and the map is
+/// brought up to date meanwhile: a little at every update(), and in time before the next region is full.
+/// Everything asked for is answered as if that work were done, and the result has the same bits for any
+/// number of threads.
 ///
-/// Exactly the same filter as State with kStandard and kFej. With kInvariant the landmarks outside of the region are
-/// turned with the robot once per region and not at every update, which is the same to first order.
+/// Exactly the same filter as State with kStandard and kFej. With kInvariant the landmarks outside of the
+/// region are turned with the robot once per region and not at every update: the estimates are the same to
+/// first order in the innovations, and the covariance stays positive.
 ///
-/// With n_a = 3 + dimension * landmarks of the region, an update of D rows costs 4 n_a^2 D flop whatever the size n of
-/// the map, bringing a landmark in n_a^2, and closing a region n^2 n_a + 4 n n_a^2 altogether.
+/// With n_a = 3 + dimension * landmarks of the region, an update of D rows costs 4 n_a^2 D flop whatever the
+/// size n of the map, bringing a landmark in n_a^2, and closing a region n^2 n_a + 4 n n_a^2 altogether.
 class CompressedState {
  public:
-  CompressedState(int dimension, int capacity, Consistency consistency, const Compression& compression, int threads = 1);
+  CompressedState(int dimension, int capacity, Consistency consistency, const Compression& compression,
+                  int threads = 1);
 
   [[nodiscard]] int dimension() const { return active_.dimension(); }
   [[nodiscard]] int landmarks() const { return static_cast<int>(slots_.size()); }
@@ -76,12 +80,15 @@ class CompressedState {
   };
 
   [[nodiscard]] int slot_of(int index) const { return slots_[static_cast<std::size_t>(index)]; }
-  [[nodiscard]] int local_of(int index) const { return local_of_slot_[static_cast<std::size_t>(slot_of(index))]; }
+  [[nodiscard]] int local_of(int index) const {
+    return local_of_slot_[static_cast<std::size_t>(slot_of(index))];
+  }
   /// How many landmarks the region may have.
   [[nodiscard]] int limit() const;
 
   [[nodiscard]] Eigen::Vector3d displacement(int slot) const;
   [[nodiscard]] Recalled recall(int slot) const;
+  [[nodiscard]] Eigen::Index row(int index) const { return 3 + dimension() * index; }
   void activate(int slot);
   void enter(int slot);
   void make_room();
@@ -111,12 +118,13 @@ class CompressedState {
 
   Clock now_ = 0;
   int seen_this_step_ = 0;
-  int most_seen_ = 0;  // in one step of this region
-  int room_ = 0;       // when the region was opened
+  int most_seen_ = 0;          // in one step of this region
+  int room_ = 0;               // when the region was opened
   double closing_work_ = 0.0;  // flop, then
 
   std::vector<Sighting> local_sightings_;
-  // Of the landmark recalled last, n_a x dimension: its columns when the region was opened, -psi times them, and now.
+  // Of the landmark recalled last, n_a x dimension: its columns when the region was opened, -psi times them,
+  // and now.
   mutable Eigen::MatrixXd base_;
   mutable Eigen::MatrixXd minus_psi_base_;
   mutable Eigen::MatrixXd cross_;

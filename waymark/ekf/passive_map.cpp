@@ -87,9 +87,11 @@ void PassiveMap::store(std::span<const int> members, const State& region) {
 void PassiveMap::take_over(const Accumulators& since, const State& region) {
   const std::size_t na = since.size();
   for (std::size_t i = 0; i < na; ++i) {
-    for (std::size_t j = 0; j < na; ++j) minus_phi_T_[j * region_ld_ + i] = -since.phi()[i * since.stride() + j];
+    for (std::size_t j = 0; j < na; ++j)
+      minus_phi_T_[j * region_ld_ + i] = -since.phi()[i * since.stride() + j];
     for (std::size_t j = i; j < na; ++j)
-      minus_psi_[i * region_ld_ + j] = minus_psi_[j * region_ld_ + i] = since.minus_psi()[i * since.stride() + j];
+      minus_psi_[i * region_ld_ + j] = minus_psi_[j * region_ld_ + i] =
+          since.minus_psi()[i * since.stride() + j];
     heading_[i] = region.covariance(i, 2);
   }
   std::copy_n(since.tau(), na, tau_.data());
@@ -107,7 +109,8 @@ void PassiveMap::take_over(const Accumulators& since, const State& region) {
 /// Phase one: blocks of columns; phase two: rows.
 double PassiveMap::next_cost() const {
   const auto na = static_cast<double>(rows_.size());
-  if (next_block_ * kColumns < n_) return settled_[next_block_] ? 0.0 : 4.0 * na * na * static_cast<double>(kColumns);
+  if (next_block_ * kColumns < n_)
+    return settled_[next_block_] ? 0.0 : 4.0 * na * na * static_cast<double>(kColumns);
   return 2.0 * na * static_cast<double>(kRows * (n_ - next_row_));
 }
 
@@ -128,7 +131,8 @@ void PassiveMap::do_next() {
   if (next_block_ * kColumns < n_) return settle(next_block_++);
   const std::size_t end = std::min(next_row_ + kRows, n_);
   kernels::symmetric_product_update(P_.data(), ld_, n_, B_.data(), psi_B_.data(), ld_, rows_.size(),
-                                    shear_ ? d_.data() : nullptr, shear_ ? e_.data() : nullptr, {next_row_, end});
+                                    shear_ ? d_.data() : nullptr, shear_ ? e_.data() : nullptr,
+                                    {next_row_, end});
   next_row_ = end;
   working_ = next_row_ < n_;
 }
@@ -168,8 +172,10 @@ void PassiveMap::settle(std::size_t block) {
     std::fill_n(&phi_B_[k * kColumns], kColumns, 0.0);
   }
   const double* B = &B_[begin];
-  kernels::subtract_product(&psi_B_[begin], ld_, end - begin, minus_psi_.data(), region_ld_, B, ld_, na, {0, na});
-  kernels::subtract_product(phi_B_.data(), kColumns, end - begin, minus_phi_T_.data(), region_ld_, B, ld_, na, {0, na});
+  kernels::subtract_product(&psi_B_[begin], ld_, end - begin, minus_psi_.data(), region_ld_, B, ld_, na,
+                            {0, na});
+  kernels::subtract_product(phi_B_.data(), kColumns, end - begin, minus_phi_T_.data(), region_ld_, B, ld_, na,
+                            {0, na});
   move_points(begin, end);
   write_back(begin, end);
 }
@@ -196,7 +202,8 @@ void PassiveMap::move_points(std::size_t begin, std::size_t end) {
 void PassiveMap::write_back(std::size_t begin, std::size_t end) {
   for (std::size_t k = 0; k < rows_.size(); ++k)
     for (std::size_t j = begin; j < end; ++j)
-      if (!inside_[j]) P(rows_[k], j) = phi_B_[k * kColumns + j - begin] + (shear_ ? heading_[k] * d_[j] : 0.0);
+      if (!inside_[j])
+        P(rows_[k], j) = phi_B_[k * kColumns + j - begin] + (shear_ ? heading_[k] * d_[j] : 0.0);
 }
 
 /// P(i, j) as it will be when the work is done; both columns are settled.
@@ -220,7 +227,8 @@ Eigen::Matrix3d PassiveMap::covariance(int slot) {
   Eigen::Matrix3d P_slot = Eigen::Matrix3d::Zero();
   for (int a = 0; a < dimension_; ++a)
     for (int b = 0; b < dimension_; ++b)
-      P_slot(a, b) = present(offset(slot) + static_cast<std::size_t>(a), offset(slot) + static_cast<std::size_t>(b));
+      P_slot(a, b) =
+          present(offset(slot) + static_cast<std::size_t>(a), offset(slot) + static_cast<std::size_t>(b));
   return P_slot;
 }
 

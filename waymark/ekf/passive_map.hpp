@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/background.hpp"
@@ -12,31 +13,36 @@
 
 namespace waymark::ekf {
 
-/// Mean and covariance of the whole map as they were when the last region was closed, and the work of bringing them
-/// there from where the region before it had left them (the switch of Guivant and Nebot 2001), which is done bit by bit:
+/// Mean and covariance of the whole map as they were when the last region was closed, and the work of
+/// bringing them there from where the region before it had left them (the switch of Guivant and Nebot 2001),
+/// which is done bit by bit:
 ///
-///   for each block of columns b:  B = P(region, b);  P(region, b) <- phi B;  x_b += B^T tau;  B and psi B are kept
-///   for each block of rows:       P_bb -= B^T psi B
+///   for each block of columns b:  B = P(region, b);  P(region, b) <- phi B;  x_b += B^T tau;  B and psi B
+///   are kept for each block of rows:       P_bb -= B^T psi B
 ///
-/// What is asked for is computed on the spot where the work has not come there yet, so that nobody sees a difference.
-/// Everything is addressed by slot: a place for the robot, then one per landmark.
+/// What is asked for is computed on the spot where the work has not come there yet, so that nobody sees a
+/// difference. Everything is addressed by slot: a place for the robot, then one per landmark.
 ///
-/// The work may be done by a second thread. All members wait for it first, so that it makes no other difference.
+/// The work may be done by a second thread. All members wait for it first, so that it makes no other
+/// difference.
 class PassiveMap {
  public:
   /// For `slots` landmarks, of which up to `members` are in a region.
   PassiveMap(int dimension, int slots, int members, bool own_thread);
 
   /// Row of a slot's first coordinate.
-  [[nodiscard]] std::size_t offset(int slot) const { return robot_rows_ + static_cast<std::size_t>(slot * dimension_); }
+  [[nodiscard]] std::size_t offset(int slot) const {
+    return robot_rows_ + static_cast<std::size_t>(slot * dimension_);
+  }
   [[nodiscard]] int slots() const { return slots_; }
 
-  /// The slot shall belong to a landmark that was not there when the last region was closed: nothing correlates with it.
-  /// Slots come into use in order.
+  /// The slot shall belong to a landmark that was not there when the last region was closed: nothing
+  /// correlates with it. Slots come into use in order.
   void clear(int slot);
 
-  /// Closes a region, whose landmarks are in the slots `members`, in the state's order. `since` is what it did to the
-  /// others since the last region was closed; null if there are no others. The work for the last region must be done.
+  /// Closes a region, whose landmarks are in the slots `members`, in the state's order. `since` is what it
+  /// did to the others since the last region was closed; null if there are no others. The work for the last
+  /// region must be done.
   void close(std::span<const int> members, const State& region, const Accumulators* since);
 
   [[nodiscard]] bool done();
@@ -46,15 +52,17 @@ class PassiveMap {
   void work(double flop);
   void finish();
 
-  /// Mean, first estimate and covariance when the last region was closed. Makes sure first that the work has come to
-  /// the slot's columns.
+  /// Mean, first estimate and covariance when the last region was closed. Makes sure first that the work has
+  /// come to the slot's columns.
   [[nodiscard]] Eigen::Vector3d position(int slot);
   [[nodiscard]] Eigen::Vector3d first_estimate(int slot) const { return point(first_, slot); }
   [[nodiscard]] Eigen::Matrix3d covariance(int slot);
   /// The slot's columns of the covariance with the robot and `members`: a column for each coordinate.
   void columns(int slot, std::span<const int> members, Eigen::Ref<Eigen::MatrixXd> out);
   /// Entry of the covariance; everything must be done.
-  [[nodiscard]] double covariance(std::size_t i, std::size_t j) const { return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i]; }
+  [[nodiscard]] double covariance(std::size_t i, std::size_t j) const {
+    return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
+  }
 
  private:
   using Buffer = AlignedArray<double>;
@@ -80,14 +88,14 @@ class PassiveMap {
   int slots_ = 0;
   std::size_t ld_;
 
-  Buffer P_;      // upper triangle
+  Buffer P_;  // upper triangle
   Buffer x_;
   Buffer first_;  // first estimates of the landmarks
 
   // The region that was closed last, as long as there is work to do for it.
   bool working_ = false;
-  double credit_ = 0.0;            // flop
-  std::size_t n_ = 0;              // size() when it was closed
+  double credit_ = 0.0;  // flop
+  std::size_t n_ = 0;    // size() when it was closed
   std::size_t region_ld_;
   std::vector<std::size_t> rows_;  // its rows in P
   std::vector<char> inside_;       // by row of P: is one of them
@@ -98,13 +106,13 @@ class PassiveMap {
   bool shear_ = false;
   double turn_ = 0.0;
 
-  std::vector<char> settled_;   // by block of columns
+  std::vector<char> settled_;  // by block of columns
   std::size_t next_block_ = 0;
   std::size_t next_row_ = 0;
-  Buffer B_;                    // region x n; zero in the region's own columns
+  Buffer B_;  // region x n; zero in the region's own columns
   Buffer psi_B_;
-  Buffer phi_B_;                // of one block
-  Buffer d_, e_;                // shear of the landmarks outside: P += d e^T + e d^T
+  Buffer phi_B_;                    // of one block
+  Buffer d_, e_;                    // shear of the landmarks outside: P += d e^T + e d^T
   std::vector<std::size_t> asked_;  // scratch of columns()
 
   Background background_;  // last: it ends before what it works on
