@@ -48,7 +48,6 @@ function(waymark_program name)
   add_executable(${target} ${arg_SOURCES})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
   waymark_link(${target} "${arg_DEPENDS}" "${arg_LIBRARIES}")
-  set_property(GLOBAL APPEND PROPERTY WAYMARK_PROGRAMS ${target})
 endfunction()
 
 # waymark_test(<folder> FILES <files...> LIBRARIES <further targets...>)

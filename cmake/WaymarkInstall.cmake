@@ -1,10 +1,9 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# waymark_install(): installs libraries, headers and programs so that find_package(waymark) works.
+# waymark_install(): installs libraries and headers so that find_package(waymark) works.
 function(waymark_install)
   get_property(folders GLOBAL PROPERTY WAYMARK_ADDED_FOLDERS)
-  get_property(programs GLOBAL PROPERTY WAYMARK_PROGRAMS)
   list(TRANSFORM folders PREPEND waymark_ OUTPUT_VARIABLE libraries)
 
   # The umbrella: waymark::waymark is all folders.
@@ -21,9 +20,6 @@ function(waymark_install)
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/waymark"
       FILES_MATCHING PATTERN "*.hpp")
   endforeach()
-  if(programs)
-    install(TARGETS ${programs})
-  endif()
 
   set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/waymark")
   set(config "${PROJECT_BINARY_DIR}/package/waymarkConfig.cmake")

@@ -10,7 +10,7 @@ packages=(
 )
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git
-  clang-format-14 clang-tidy-14 clangd-14 valgrind gcovr chromium fonts-dejavu-core
+  clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
 )
 
 case "${1:-}" in

@@ -1,8 +1,5 @@
 // Prints the figures of docs/results.md: each subcommand one table.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -11,10 +8,14 @@
 #include <thread>
 #include <vector>
 
-#include "figures/compressed.hpp"
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include "waymark/core/chi2.hpp"
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
+
+#include "figures/compressed.hpp"
 
 namespace waymark {
 namespace {
@@ -65,19 +66,21 @@ Score combine(const std::vector<Score>& scores, const Reduce& reduce) {
 }
 
 void print(const std::string& name, const Score& s) {
-  fmt::print("{:<10}{:>10.3f}{:>10.3f}{:>10.3f}{:>12.1f}{:>10.2f}\n", name, s.anchored_m, s.aligned_m, s.map_m, s.nees,
-             s.nis_per_dof);
+  fmt::print("{:<10}{:>10.3f}{:>10.3f}{:>10.3f}{:>12.1f}{:>10.2f}\n", name, s.anchored_m, s.aligned_m,
+             s.map_m, s.nees, s.nis_per_dof);
 }
 
 /// One filter on several robots of an MRCLAM directory; FastSLAM as the median over seeds.
-int mrclam(const std::string& folder, int robots, const std::string& filter, int seeds, std::vector<std::string> extra) {
-  fmt::print("{} on {}: RMSE in m\n{:<10}{:>10}{:>10}{:>10}{:>12}{:>10}\n", filter, folder, "robot", "anchored", "aligned",
-             "map self", "NEES median", "NIS/dof");
+int mrclam(const std::string& folder, int robots, const std::string& filter, int seeds,
+           std::vector<std::string> extra) {
+  fmt::print("{} on {}: RMSE in m\n{:<10}{:>10}{:>10}{:>10}{:>12}{:>10}\n", filter, folder, "robot",
+             "anchored", "aligned", "map self", "NEES median", "NIS/dof");
   std::vector<Score> robots_scores;
   for (int robot = 1; robot <= robots; ++robot) {
     std::vector<Score> scores;
     for (int seed = 1; seed <= seeds; ++seed) {
-      std::vector<std::string> settings{"filter=" + filter, fmt::format("input.robot={}", robot), fmt::format("seed={}", seed), "fastslam.particles=100"};
+      std::vector<std::string> settings{"filter=" + filter, fmt::format("input.robot={}", robot),
+                                        fmt::format("seed={}", seed), "fastslam.particles=100"};
       settings.insert(settings.end(), extra.begin(), extra.end());
       const auto result = run(folder, std::move(settings));
       if (!result || !result->evaluation) return 1;
@@ -95,7 +98,8 @@ int loop_closure(const std::string& folder, std::vector<std::string> settings) {
   const auto result = run(folder, std::move(settings));
   if (!result || result->recording.trajectory.empty()) return 1;
   const auto report = [](const char* name, const Pose2& end) {
-    fmt::print("{:<20} ends {:.3f} m and {:.2f} deg from its start\n", name, end.position().norm(), to_degrees(end.theta_rad));
+    fmt::print("{:<20} ends {:.3f} m and {:.2f} deg from its start\n", name, end.position().norm(),
+               to_degrees(end.theta_rad));
   };
   report("odometry alone", result->recording.dead_reckoning.back().pose);
   report(result->metrics.filter.c_str(), result->recording.trajectory.back().pose);
@@ -115,7 +119,8 @@ struct StudyRun {
 StudyRun study_run(int seed, const std::vector<std::string>& extra) {
   StudyRun study;
   for (const std::string filter : {"ekf", "fastslam"}) {
-    std::vector<std::string> settings{"filter=" + filter, fmt::format("seed={}", seed), "fastslam.particles=150"};
+    std::vector<std::string> settings{"filter=" + filter, fmt::format("seed={}", seed),
+                                      "fastslam.particles=150"};
     settings.insert(settings.end(), extra.begin(), extra.end());
     const auto result = run("sim:study", std::move(settings));
     if (!result || !result->evaluation || !result->evaluation->path.position_rmse_m) return study;
@@ -128,8 +133,8 @@ StudyRun study_run(int seed, const std::vector<std::string>& extra) {
   return study;
 }
 
-/// The part of the stamps at which the mean NEES over the runs lies inside its 99 % band; stamps that some run lacks
-/// (a covariance that is still singular) do not count.
+/// The part of the stamps at which the mean NEES over the runs lies inside its 99 % band; stamps that some
+/// run lacks (a covariance that is still singular) do not count.
 double part_inside(const std::vector<StudyRun>& runs, double from_s, double to_s) {
   const auto n = static_cast<double>(runs.size());
   const double low = chi2_quantile(0.005, 3.0 * n) / n;
@@ -166,9 +171,13 @@ int study(int seeds, const std::vector<std::string>& extra) {
   const double end_s = to_seconds(runs.front().nees.rbegin()->first);
   fmt::print("world study, {} seeds\n", seeds);
   fmt::print("EKF mean pose NEES inside its 99 % band: {:.1f} % of the first lap, {:.1f} % of the second\n",
-             100.0 * part_inside(runs, 0.0, 0.5 * end_s), 100.0 * part_inside(runs, 0.5 * end_s, 2.0 * end_s));
-  fmt::print("position RMSE, mean and median over the seeds: EKF {:.3f} {:.3f} m, FastSLAM (150 particles) {:.3f} {:.3f} m, ratio {:.2f} {:.2f}\n",
-             mean(ekf), median(ekf), mean(fastslam), median(fastslam), mean(fastslam) / mean(ekf), median(fastslam) / median(ekf));
+             100.0 * part_inside(runs, 0.0, 0.5 * end_s),
+             100.0 * part_inside(runs, 0.5 * end_s, 2.0 * end_s));
+  fmt::print(
+      "position RMSE, mean and median over the seeds: EKF {:.3f} {:.3f} m, FastSLAM (150 particles) {:.3f} "
+      "{:.3f} m, ratio {:.2f} {:.2f}\n",
+      mean(ekf), median(ekf), mean(fastslam), median(fastslam), mean(fastslam) / mean(ekf),
+      median(fastslam) / median(ekf));
   return 0;
 }
 
@@ -190,7 +199,8 @@ int main(int argc, char** argv) {
   mrclam->add_option("--robots", robots);
   mrclam->add_option("--filter", filter);
   mrclam->add_option("--seeds", seeds, "FastSLAM: median over this many");
-  mrclam->callback([&] { status = waymark::mrclam(folder, robots, filter, filter == "ekf" ? 1 : seeds, settings); });
+  mrclam->callback(
+      [&] { status = waymark::mrclam(folder, robots, filter, filter == "ekf" ? 1 : seeds, settings); });
   auto* loop = app.add_subcommand("loop", "how far a log that returns to its start ends from it");
   loop->add_option("log", folder)->required();
   loop->callback([&] { status = waymark::loop_closure(folder, settings); });
@@ -199,11 +209,13 @@ int main(int argc, char** argv) {
   study->callback([&] { status = waymark::study(study_seeds, settings); });
   int frames = 5000;
   int threads = 1;
-  auto* compressed = app.add_subcommand("compressed", "what a step costs in a large map, and how exact it is");
+  auto* compressed =
+      app.add_subcommand("compressed", "what a step costs in a large map, and how exact it is");
   compressed->add_option("--frames", frames);
   compressed->add_option("--threads", threads);
   compressed->callback([&] { status = waymark::compressed(frames, threads); });
-  for (auto* command : {mrclam, loop, study}) command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
+  for (auto* command : {mrclam, loop, study})
+    command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

@@ -1,15 +1,16 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "commands.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "waymark/eval/truth_check.hpp"
 #include "waymark/report/results.hpp"
+
+#include "commands.hpp"
 
 namespace waymark::app {
 namespace {
@@ -28,12 +29,16 @@ struct Stream {
   Duration longest_gap{0};
 
   void see(Stamp stamp) {
-    if (events++ == 0) first = stamp;
-    else longest_gap = std::max(longest_gap, stamp - last);
+    if (events++ == 0)
+      first = stamp;
+    else
+      longest_gap = std::max(longest_gap, stamp - last);
     last = stamp;
   }
   [[nodiscard]] double duration_s() const { return to_seconds(last - first); }
-  [[nodiscard]] double rate_hz() const { return duration_s() > 0.0 ? static_cast<double>(events - 1) / duration_s() : 0.0; }
+  [[nodiscard]] double rate_hz() const {
+    return duration_s() > 0.0 ? static_cast<double>(events - 1) / duration_s() : 0.0;
+  }
 };
 
 /// Everything that one pass over a log shows.
@@ -49,8 +54,8 @@ struct Contents {
 };
 
 const char* name_of(const EventContent& content) {
-  static constexpr std::array names{"wheel angles",    "velocity", "steering", "odometry poses", "images",
-                                    "observations", "ground truth"};
+  static constexpr std::array names{"wheel angles", "velocity",     "steering",    "odometry poses",
+                                    "images",       "observations", "ground truth"};
   return names[content.index()];
 }
 
@@ -85,20 +90,23 @@ Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
     if (!*event) break;
     const auto& [stamp, content] = **event;
     contents.streams[name_of(content)].see(stamp);
-    if (const auto* observations = std::get_if<Observations>(&content)) look_at(*observations, stamp, T_robot_sensor, contents);
+    if (const auto* observations = std::get_if<Observations>(&content))
+      look_at(*observations, stamp, T_robot_sensor, contents);
     if (const auto* truth = std::get_if<Truth>(&content)) contents.truth.push_back({stamp, *truth});
   }
   contents.notes = source.notes();
   return contents;
 }
 
-/// Landmarks of the survey that the observations contradict: by the true path where there is one, else by the map that
-/// a filter makes of the log.
-std::vector<std::string> survey_oddities(const Request& request, const LogInfo& log, const Contents& contents) {
+/// Landmarks of the survey that the observations contradict: by the true path where there is one, else by the
+/// map that a filter makes of the log.
+std::vector<std::string> survey_oddities(const Request& request, const LogInfo& log,
+                                         const Contents& contents) {
   if (log.landmarks.empty() || contents.placed.empty()) return {};
   const Eigen::Vector2d truth_sensor_m = log.truth_sensor_m.value_or(Eigen::Vector2d::Zero());
   if (!contents.truth.empty()) {
-    const auto seen = eval::place_sightings(contents.placed, eval::TruthTrack(contents.truth), truth_sensor_m);
+    const auto seen =
+        eval::place_sightings(contents.placed, eval::TruthTrack(contents.truth), truth_sensor_m);
     return describe(eval::find_oddities(seen, log.landmarks, Pose2{}));
   }
   const auto result = run_log(request.input, request.flags.settings());
@@ -128,7 +136,8 @@ std::string advice(const Request& request, const Contents& contents) {
   return command;
 }
 
-void print_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities, const std::string& next) {
+void print_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
+                const std::string& next) {
   fmt::print("{} ({})\n", log.name, log.format);
   for (const auto& [name, stream] : contents.streams)
     fmt::print("  {:<16}{:>8} events  {:>8.1f} s  {:>7.1f} Hz  longest gap {:.2f} s\n", name, stream.events,
@@ -145,7 +154,8 @@ void print_text(const LogInfo& log, const Contents& contents, const std::vector<
   fmt::print("run: {}\n", next);
 }
 
-void print_json(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities, const std::string& next) {
+void print_json(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
+                const std::string& next) {
   nlohmann::ordered_json json{{"name", log.name}, {"format", log.format}};
   for (const auto& [name, stream] : contents.streams)
     json["streams"].push_back({{"name", name},
@@ -179,11 +189,14 @@ Result<void> check_log(const Request& request) {
 }  // namespace
 
 void add_check(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
+  auto* command =
+      app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")->required();
+  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")
+      ->required();
   request->flags.add_to(*command);
-  command->add_flag("--json", request->verbosity.json, "print the findings as JSON on standard output and nothing else there");
+  command->add_flag("--json", request->verbosity.json,
+                    "print the findings as JSON on standard output and nothing else there");
   command->footer("Example:\n  waymark check MRCLAM_Dataset1 --set input.robot=2");
   command->callback([&work, request] { work = [request] { return check_log(*request); }; });
 }

@@ -1,13 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "console.hpp"
+#include <CLI/CLI.hpp>
+
 #include "waymark/core/result.hpp"
 #include "waymark/slam/config.hpp"
+
+#include "console.hpp"
 
 namespace waymark::app {
 

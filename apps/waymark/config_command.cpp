@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
+
+#include <fmt/format.h>
 
 #include "commands.hpp"
 
@@ -30,7 +30,8 @@ Result<void> config(const Request& request) {
 void add_config(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("config", "Print the full config with comments, or validate a file");
   auto request = std::make_shared<Request>();
-  command->add_option("--validate", request->validate, "check this file and say what is wrong with it")->type_name("FILE");
+  command->add_option("--validate", request->validate, "check this file and say what is wrong with it")
+      ->type_name("FILE");
   request->flags.add_to(*command);
   command->footer("Example:\n  waymark config > my.yaml\n  waymark config --validate my.yaml");
   command->callback([&work, request] { work = [request] { return config(*request); }; });

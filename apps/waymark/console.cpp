@@ -1,12 +1,13 @@
 #include "console.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace waymark::app {
 namespace {
@@ -37,8 +38,8 @@ void ProgressBar::show(double fraction) {
   const double spent_s = std::chrono::duration<double>(now - start_).count();
   const auto filled = static_cast<std::size_t>(done * kWidth);
   const std::string left = done > 0.02 ? fmt::format(", {:.0f} s left", spent_s * (1.0 - done) / done) : "";
-  fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %{}", what_, std::string(filled, '#'), std::string(kWidth - filled, '.'),
-             100.0 * done, left);
+  fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %{}", what_, std::string(filled, '#'),
+             std::string(kWidth - filled, '.'), 100.0 * done, left);
   std::fflush(stderr);
 }
 

@@ -1,14 +1,15 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include "commands.hpp"
+#include <fmt/format.h>
+
 #include "waymark/io/files.hpp"
 #include "waymark/report/report.hpp"
 #include "waymark/report/results.hpp"
 #include "waymark/report/run_report.hpp"
+
+#include "commands.hpp"
 
 namespace waymark::app {
 namespace {
@@ -26,7 +27,9 @@ Result<RunResult> run_filter(const Request& request, const char* filter) {
   auto result = run_log("sim:study", user, {}, [](double) { return !interrupted(); });
   if (!result) return result;
   const auto folder = std::filesystem::path(request.output) / filter;
-  if (auto written = write_results(*result, folder, fmt::format("waymark run sim:study --filter {} -o {}", filter, folder.string())); !written)
+  if (auto written = write_results(
+          *result, folder, fmt::format("waymark run sim:study --filter {} -o {}", filter, folder.string()));
+      !written)
     return written.error();
   if (result->recording.error) return *result->recording.error;
   return result;
@@ -54,9 +57,11 @@ Result<void> demo(const Request& request) {
 }  // namespace
 
 void add_demo(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("demo", "Simulate a drive, run both filters, write a report; needs no data");
+  auto* command =
+      app.add_subcommand("demo", "Simulate a drive, run both filters, write a report; needs no data");
   auto request = std::make_shared<Request>();
-  command->add_option("-o,--output", request->output, "folder for the results (default waymark-demo)")->type_name("OUT");
+  command->add_option("-o,--output", request->output, "folder for the results (default waymark-demo)")
+      ->type_name("OUT");
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
   command->footer("Example:\n  waymark demo --seed 3 -o demo && xdg-open demo/report.html");

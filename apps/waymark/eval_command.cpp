@@ -1,15 +1,16 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/io/map_files.hpp"
 #include "waymark/io/tum.hpp"
 #include "waymark/report/metrics.hpp"
+
+#include "commands.hpp"
 
 namespace waymark::app {
 namespace {
@@ -57,7 +58,8 @@ Result<Reference> read_log_truth(const std::string& input, const UserSettings& u
     auto event = opened->source->next();
     if (!event) return event.error();
     if (!*event) break;
-    if (const auto* truth = std::get_if<Truth>(&(*event)->content)) samples.push_back({(*event)->stamp, *truth});
+    if (const auto* truth = std::get_if<Truth>(&(*event)->content))
+      samples.push_back({(*event)->stamp, *truth});
   }
   const LogInfo& log = opened->source->info();
   reference.track = eval::TruthTrack(std::move(samples));
@@ -79,15 +81,16 @@ Result<void> evaluate(const Request& request) {
   auto reference = read_reference(request.truth, request.flags.settings());
   if (!reference) return reference.error();
   if (reference->track.empty() && reference->landmarks.empty())
-    return Error{request.truth + ": holds no ground truth: expected truth.csv or landmarks.csv, or a TUM trajectory"};
-  const auto evaluation = eval::evaluate(estimate->trajectory, estimate->map, reference->track, reference->landmarks, {},
-                                         reference->options);
+    return Error{request.truth +
+                 ": holds no ground truth: expected truth.csv or landmarks.csv, or a TUM trajectory"};
+  const auto evaluation = eval::evaluate(estimate->trajectory, estimate->map, reference->track,
+                                         reference->landmarks, {}, reference->options);
   if (evaluation.pairs == 0 && !reference->track.empty())
-    return Error{fmt::format("{}: no stamp in common with {}: the estimate covers {} to {} s, the truth {} to {} s",
-                             request.result, request.truth, to_string(estimate->trajectory.front().stamp),
-                             to_string(estimate->trajectory.back().stamp),
-                             to_string(reference->track.samples().front().stamp),
-                             to_string(reference->track.samples().back().stamp))};
+    return Error{fmt::format(
+        "{}: no stamp in common with {}: the estimate covers {} to {} s, the truth {} to {} s",
+        request.result, request.truth, to_string(estimate->trajectory.front().stamp),
+        to_string(estimate->trajectory.back().stamp), to_string(reference->track.samples().front().stamp),
+        to_string(reference->track.samples().back().stamp))};
   fmt::print("{}", request.verbosity.json ? truth_json_text(evaluation) : to_text(evaluation));
   return {};
 }
@@ -97,11 +100,16 @@ Result<void> evaluate(const Request& request) {
 void add_eval(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("eval", "Errors of a result against ground truth, aligned and not");
   auto request = std::make_shared<Request>();
-  command->add_option("result", request->result, "a folder that `waymark run` wrote, or a TUM trajectory")->required();
-  command->add_option("--truth", request->truth, "a log with ground truth, or a TUM trajectory")->required()->type_name("LOG_OR_FILE");
+  command->add_option("result", request->result, "a folder that `waymark run` wrote, or a TUM trajectory")
+      ->required();
+  command->add_option("--truth", request->truth, "a log with ground truth, or a TUM trajectory")
+      ->required()
+      ->type_name("LOG_OR_FILE");
   request->flags.add_to(*command);
-  command->add_flag("--json", request->verbosity.json, "print the errors as JSON on standard output and nothing else there");
-  command->footer("Examples:\n  waymark eval out --truth LOG\n  waymark eval mine.tum --truth reference.tum --json");
+  command->add_flag("--json", request->verbosity.json,
+                    "print the errors as JSON on standard output and nothing else there");
+  command->footer(
+      "Examples:\n  waymark eval out --truth LOG\n  waymark eval mine.tum --truth reference.tum --json");
   command->callback([&work, request] { work = [request] { return evaluate(*request); }; });
 }
 

@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <exception>
+
+#include <fmt/format.h>
 
 #include "commands.hpp"
 
@@ -26,12 +26,14 @@ int report(const Error& error) {
 }  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
-  command.add_option("--config", file, "YAML file with config keys (see `waymark config`)")->type_name("FILE");
+  command.add_option("--config", file, "YAML file with config keys (see `waymark config`)")
+      ->type_name("FILE");
   command.add_option("--set", assignments, "one config key, for example --set sensor.range_sigma_m=0.1")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_option("--seed", seed, "seed of all random numbers (config key seed)")->type_name("N");
-  command.add_option("--threads", threads, "threads; the result does not depend on it (config key threads)")->type_name("N");
+  command.add_option("--threads", threads, "threads; the result does not depend on it (config key threads)")
+      ->type_name("N");
 }
 
 UserSettings SettingsFlags::settings() const {
@@ -45,7 +47,8 @@ UserSettings SettingsFlags::settings() const {
 
 void add_verbosity(CLI::App& command, Verbosity& verbosity) {
   command.add_flag("--quiet", verbosity.quiet, "print nothing but errors");
-  command.add_flag("--json", verbosity.json, "print the result as JSON on standard output and nothing else there");
+  command.add_flag("--json", verbosity.json,
+                   "print the result as JSON on standard output and nothing else there");
 }
 
 void remember_command_line(int argc, char** argv) {

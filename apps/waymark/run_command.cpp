@@ -1,11 +1,12 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
 
-#include "commands.hpp"
+#include <fmt/format.h>
+
 #include "waymark/io/files.hpp"
 #include "waymark/report/results.hpp"
+
+#include "commands.hpp"
 
 namespace waymark::app {
 namespace {
@@ -64,11 +65,15 @@ Result<void> run(const Request& request) {
 void add_run(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")->required();
-  command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")->type_name("OUT");
+  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")
+      ->required();
+  command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
+      ->type_name("OUT");
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
-  command->add_option("--observe", request->observe, "part of the observations to use: range-bearing")->type_name("KIND");
-  command->add_option("--associate", request->associate, "how observations find their landmarks: known")->type_name("HOW");
+  command->add_option("--observe", request->observe, "part of the observations to use: range-bearing")
+      ->type_name("KIND");
+  command->add_option("--associate", request->associate, "how observations find their landmarks: known")
+      ->type_name("HOW");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");
   command->add_option("--to", request->span.to_s, "end this many seconds into the log")->type_name("S");

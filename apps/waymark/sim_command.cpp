@@ -1,11 +1,12 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
 
-#include "commands.hpp"
+#include <fmt/format.h>
+
 #include "waymark/io/log_writer.hpp"
 #include "waymark/sim/options.hpp"
+
+#include "commands.hpp"
 
 namespace waymark::app {
 namespace {
@@ -27,8 +28,7 @@ Result<void> simulate(const Request& request) {
   auto simulation = open_simulation(request.scenario, request.flags.settings());
   if (!simulation) return simulation.error();
   if (auto written = write_log(**simulation, request.output); !written) return written;
-  if (request.verbosity.talks())
-    fmt::print("wrote {0}\nnext: waymark run {0} -o out\n", request.output);
+  if (request.verbosity.talks()) fmt::print("wrote {0}\nnext: waymark run {0} -o out\n", request.output);
   return {};
 }
 
@@ -41,8 +41,9 @@ void add_sim(CLI::App& app, Work& work) {
   command->add_option("-o,--output", request->output, "log folder to write")->required()->type_name("LOG");
   request->flags.add_to(*command);
   command->add_flag("--quiet", request->verbosity.quiet, "print nothing but errors");
-  command->footer("Example:\n  waymark sim study -o study-log --seed 7\n"
-                  "  waymark sim square -o log --set sim.landmarks=40 --set sim.field_of_view_deg=180");
+  command->footer(
+      "Example:\n  waymark sim study -o study-log --seed 7\n"
+      "  waymark sim square -o log --set sim.landmarks=40 --set sim.field_of_view_deg=180");
   command->callback([&work, request] { work = [request] { return simulate(*request); }; });
 }
 

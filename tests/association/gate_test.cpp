@@ -1,8 +1,8 @@
 #include "waymark/association/gate.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include "waymark/core/chi2.hpp"
 

@@ -1,16 +1,18 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <cmath>
 #include <span>
 #include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include "waymark/ekf/state.hpp"
 
 namespace waymark::test {
 
-/// EKF-SLAM as the textbook writes it, in long double and with dense matrices: what the fast state is held against.
+/// EKF-SLAM as the textbook writes it, in long double and with dense matrices: what the fast state is held
+/// against.
 class DenseFilter {
  public:
   using Scalar = long double;
@@ -18,7 +20,11 @@ class DenseFilter {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
   DenseFilter(int dimension, ekf::Consistency consistency)
-      : dimension_(dimension), consistency_(consistency), x_(Vector::Zero(3)), P_(Matrix::Zero(3, 3)), linearized_(Vector::Zero(3)) {}
+      : dimension_(dimension),
+        consistency_(consistency),
+        x_(Vector::Zero(3)),
+        P_(Matrix::Zero(3, 3)),
+        linearized_(Vector::Zero(3)) {}
 
   void predict(const Motion& motion) {
     const Vector base = consistency_ == ekf::Consistency::kFej ? linearized_ : Vector(x_.head(3));
@@ -72,7 +78,8 @@ class DenseFilter {
     grown.bottomLeftCorner(dimension_, n) = G * P_.topRows(3);
     grown.topRightCorner(n, dimension_) = grown.bottomLeftCorner(dimension_, n).transpose();
     grown.bottomRightCorner(dimension_, dimension_) =
-        G * P_.topLeftCorner(3, 3) * G.transpose() + noise.topLeftCorner(dimension_, dimension_).cast<Scalar>();
+        G * P_.topLeftCorner(3, 3) * G.transpose() +
+        noise.topLeftCorner(dimension_, dimension_).cast<Scalar>();
     P_ = grown;
     x_.conservativeResize(n + dimension_);
     x_.tail(dimension_) = position.head(dimension_).cast<Scalar>();
@@ -84,7 +91,8 @@ class DenseFilter {
     const int from = size() - dimension_;
     Eigen::PermutationMatrix<Eigen::Dynamic> swap(size());
     swap.setIdentity();
-    for (int a = 0; a < dimension_ && to != from; ++a) std::swap(swap.indices()[to + a], swap.indices()[from + a]);
+    for (int a = 0; a < dimension_ && to != from; ++a)
+      std::swap(swap.indices()[to + a], swap.indices()[from + a]);
     P_ = (swap * P_ * swap.transpose()).eval().topLeftCorner(from, from).eval();
     x_ = (swap * x_).eval().head(from).eval();
   }
@@ -94,7 +102,9 @@ class DenseFilter {
   [[nodiscard]] Eigen::MatrixXd covariance() const { return P_.cast<double>(); }
 
  private:
-  static Scalar wrap(Scalar a) { return std::remainder(a, 2 * Scalar(3.14159265358979323846264338327950288L)); }
+  static Scalar wrap(Scalar a) {
+    return std::remainder(a, 2 * Scalar(3.14159265358979323846264338327950288L));
+  }
 
   void move(const Vector& dx) {
     x_ += dx;
@@ -113,7 +123,8 @@ class DenseFilter {
     Vector d = Vector::Zero(size());
     for (int at = 0; at < size(); at = at == 0 ? 3 : at + dimension_) {
       const Eigen::Matrix<Scalar, 2, 1> q = x_.segment(at, 2);
-      const Eigen::Matrix<Scalar, 2, 1> moved = R * q + V * (Eigen::Matrix<Scalar, 2, 1>(dx.segment(at, 2)) - a * J * q);
+      const Eigen::Matrix<Scalar, 2, 1> moved =
+          R * q + V * (Eigen::Matrix<Scalar, 2, 1>(dx.segment(at, 2)) - a * J * q);
       d.segment(at, 2) = J * (moved - q);
       x_.segment(at, 2) = moved;
       if (at > 0 && dimension_ == 3) x_[at + 2] += dx[at + 2];

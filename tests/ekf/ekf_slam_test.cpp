@@ -1,58 +1,20 @@
 #include "waymark/ekf/ekf_slam.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "support/allocation_counter.hpp"
+#include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
-#include "waymark/models/observation_models.hpp"
 
 namespace waymark {
 namespace {
 
-constexpr double kRangeSigma_m = 0.05;
-constexpr double kBearingSigma_rad = 0.02;
-
-/// A robot on a circle among eight landmarks that it sees one and all, with noise.
-class CircleWorld {
- public:
-  explicit CircleWorld(std::uint64_t seed) : random_(seed, StreamPurpose::kSimulation) {
-    for (int i = 0; i < 8; ++i) landmarks_.emplace_back(6.0 * std::cos(i * kPi / 4.0) + 1.0, 6.0 * std::sin(i * kPi / 4.0) + 3.0);
-  }
-
-  Motion move() {
-    const Eigen::Vector3d sigma(0.01, 0.005, 0.01);
-    const Pose2 step{0.1, 0.0, 0.03};
-    truth_ = truth_ * Pose2{step.x_m + sigma[0] * random_.normal(), sigma[1] * random_.normal(), step.theta_rad + sigma[2] * random_.normal()};
-    return {step, sigma.cwiseAbs2().asDiagonal()};
-  }
-
-  std::vector<Observation> look() {
-    std::vector<Observation> scan;
-    for (int i = 0; i < 8; ++i) scan.push_back(sight(i));
-    return scan;
-  }
-
-  Observation sight(int landmark) {
-    const auto z = RangeBearingModel::linearize(truth_, mount_, landmarks_[static_cast<std::size_t>(landmark)]).predicted;
-    const RangeBearing noisy{z[0] + kRangeSigma_m * random_.normal(), wrap_angle(z[1] + kBearingSigma_rad * random_.normal())};
-    const Eigen::Vector2d variance(kRangeSigma_m * kRangeSigma_m, kBearingSigma_rad * kBearingSigma_rad);
-    return {LandmarkId{LandmarkId::Family::kMarker, landmark}, noisy, Eigen::Matrix2d(variance.asDiagonal())};
-  }
-
-  [[nodiscard]] const Pose2& truth() const { return truth_; }
-  [[nodiscard]] const Pose2& mount() const { return mount_; }
-
- private:
-  RandomStream random_;
-  std::vector<Eigen::Vector2d> landmarks_;
-  Pose2 truth_;
-  Pose2 mount_{0.2, -0.1, 0.3};
-};
+using test::CircleWorld;
 
 EkfSlam make(const CircleWorld& world, int capacity = 20) {
   return EkfSlam({ekf::Consistency::kInvariant, capacity}, {}, world.mount());
@@ -115,9 +77,11 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
   scan.push_back(world.sight(0));
   const auto& correction = filter.correct(scan);
-  const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kUnusable,
-                                      Outcome::kMatched,  Outcome::kMapFull,      Outcome::kDuplicate};
-  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(correction.innovations[i].outcome, expected[i]) << i;
+  const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable,
+                                      Outcome::kUnusable, Outcome::kMatched,      Outcome::kMapFull,
+                                      Outcome::kDuplicate};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(correction.innovations[i].outcome, expected[i]) << i;
   EXPECT_TRUE(filter.pose().covariance.allFinite());
 }
 
@@ -125,7 +89,8 @@ TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
   EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, Pose2{});
   std::vector<Observation> scan;
   for (int i = 0; i < 80; ++i)
-    scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i}, Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())});
+    scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i},
+                    Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())});
   EXPECT_EQ(filter.correct(scan).count(Outcome::kAdded), 80);
   filter.predict({{0.01, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
   EXPECT_EQ(filter.correct(scan).count(Outcome::kMatched), 80);
@@ -135,7 +100,8 @@ TEST(EkfSlam, CompressedItEstimatesTheSame) {
   EkfSlam whole({ekf::Consistency::kFej, 150, Compress::kNever}, {}, Pose2{});
   EkfSlam compressed({ekf::Consistency::kFej, 150, Compress::kAlways, 48}, {}, Pose2{});
   const auto sight = [](int landmark, double range_m) {
-    return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark}, RangeBearing{range_m, 0.04 * landmark},
+    return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
+                       RangeBearing{range_m, 0.04 * landmark},
                        Eigen::Matrix2d(1e-3 * Eigen::Matrix2d::Identity())};
   };
   RandomStream random(6, StreamPurpose::kSimulation);

@@ -1,15 +1,16 @@
 #include "waymark/ekf/state.hpp"
 
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <vector>
 
-#include "dense_filter.hpp"
+#include <gtest/gtest.h>
+
 #include "support/matrix_near.hpp"
 #include "support/poses.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
+
+#include "dense_filter.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -43,7 +44,8 @@ struct Case {
 class StateAgainstDenseFilter : public testing::TestWithParam<Case> {
  protected:
   StateAgainstDenseFilter()
-      : state_(GetParam().dimension, kCapacity, GetParam().consistency), dense_(GetParam().dimension, GetParam().consistency) {}
+      : state_(GetParam().dimension, kCapacity, GetParam().consistency),
+        dense_(GetParam().dimension, GetParam().consistency) {}
 
   void step() {
     const double what = random_.uniform();
@@ -81,7 +83,8 @@ class StateAgainstDenseFilter : public testing::TestWithParam<Case> {
   [[nodiscard]] int any_landmark() { return static_cast<int>(random_.uniform() * state_.landmarks()); }
 
   void add() {
-    const Eigen::Vector3d position(random_.uniform(-9.0, 9.0), random_.uniform(-9.0, 9.0), random_.uniform(-1.0, 1.0));
+    const Eigen::Vector3d position(random_.uniform(-9.0, 9.0), random_.uniform(-9.0, 9.0),
+                                   random_.uniform(-1.0, 1.0));
     Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
     for (auto& entry : G.reshaped()) entry += 0.3 * random_.normal();
     const Eigen::Matrix3d noise = test::random_covariance<3>(random_, 0.01);
@@ -98,8 +101,8 @@ class StateAgainstDenseFilter : public testing::TestWithParam<Case> {
   }
 };
 
-// The long-double filter is exact for this purpose; what is left is the rounding of double arithmetic that piles up over
-// the operations. Its covariance stays below about 10 in every entry.
+// The long-double filter is exact for this purpose; what is left is the rounding of double arithmetic that
+// piles up over the operations. Its covariance stays below about 10 in every entry.
 TEST_P(StateAgainstDenseFilter, StaysEqualOverManyRandomOperations) {
   for (int i = 0; i < 3000; ++i) {
     step();
@@ -114,8 +117,9 @@ TEST_P(StateAgainstDenseFilter, CovarianceStaysSymmetricAndPositive) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModes, StateAgainstDenseFilter,
-                         testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant}, Case{2, Consistency::kFej},
-                                         Case{3, Consistency::kStandard}, Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej}));
+                         testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant},
+                                         Case{2, Consistency::kFej}, Case{3, Consistency::kStandard},
+                                         Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej}));
 
 std::unique_ptr<State> small_map(RandomStream& random, int landmarks, int threads = 1) {
   auto made = std::make_unique<State>(2, landmarks, Consistency::kInvariant, threads);
@@ -138,7 +142,8 @@ TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
   const Eigen::MatrixXd P = state.covariance();
   EXPECT_TRUE(matrix_near(state.pose().covariance, P.topLeftCorner<3, 3>(), 0.0));
   for (int i = 0; i < 5; ++i)
-    EXPECT_TRUE(matrix_near(state.landmark_covariance(i).topLeftCorner<2, 2>(), P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
+    EXPECT_TRUE(matrix_near(state.landmark_covariance(i).topLeftCorner<2, 2>(),
+                            P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
 }
 
 TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {

@@ -87,11 +87,14 @@ TEST(UpdateLandmark, MomentsAreThoseOfTheMixture) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
   double log_likelihood = 0.0;
+  double first_bearing_rad = 0.0;
   for (std::size_t i = 0; i < kCount; ++i) {
     const LandmarkGaussian m = scene.landmark.at(i);
     const auto h =
         RangeBearingModel::linearize(scene.particles.pose(static_cast<int>(i)), scene.mount, mean_of(m));
-    const Eigen::Vector2d nu = RangeBearingModel::innovation(z, h.predicted);
+    Eigen::Vector2d nu = RangeBearingModel::innovation(z, h.predicted);
+    if (i == 0) first_bearing_rad = nu.y();
+    nu.y() = first_bearing_rad + wrap_angle(nu.y() - first_bearing_rad);
     const double w = scene.particles.weight[i];
     mean += w * nu;
     second += w * (h.H_landmark * covariance_of(m) * h.H_landmark.transpose() + R + nu * nu.transpose());

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "support/data_dir.hpp"
-#include "waymark/io/flat_yaml.hpp"
+#include "waymark/core/flat_yaml.hpp"
 
 #include "io_support.hpp"
 

@@ -1,11 +1,10 @@
 #include "waymark/slam/config.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
+#include <gtest/gtest.h>
 
 namespace waymark {
 namespace {

@@ -1,8 +1,8 @@
 #include "waymark/slam/odometer.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
 #include "support/poses.hpp"
@@ -40,7 +40,8 @@ TEST(Odometer, StandsStillInAGapLongerThanTheHoldAndCountsIt) {
   Odometer odometer({}, 2.0);
   (void)odometer.advance(at(0.0), nullptr);
   odometer.add({at(0.0), Velocity{1.0, 0.0}});
-  const std::vector<Motion> motions{odometer.advance(at(1.5), nullptr), odometer.advance(at(4.0), nullptr), odometer.advance(at(9.0), nullptr)};
+  const std::vector<Motion> motions{odometer.advance(at(1.5), nullptr), odometer.advance(at(4.0), nullptr),
+                                    odometer.advance(at(9.0), nullptr)};
   EXPECT_NEAR(sum(motions).x_m, 2.0, 1e-12);
   EXPECT_TRUE(is_still(motions[2]));
   EXPECT_EQ(odometer.gaps(), 1);
@@ -90,7 +91,8 @@ TEST(Odometer, FollowsDeadReckonedPosesFromWhereverTheyStart) {
   (void)odometer.advance(at(0.0), nullptr);
   odometer.add({at(0.0), OdometryPose{T_odom_start}});
   const Event next{at(1.0), OdometryPose{T_odom_start * step}};
-  EXPECT_TRUE(test::matrix_near(test::to_vector(odometer.advance(at(1.0), &next).increment), test::to_vector(step), 1e-12));
+  EXPECT_TRUE(test::matrix_near(test::to_vector(odometer.advance(at(1.0), &next).increment),
+                                test::to_vector(step), 1e-12));
 }
 
 TEST(Odometer, RefusesASecondKind) {

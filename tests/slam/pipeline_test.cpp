@@ -1,10 +1,10 @@
 #include "waymark/slam/pipeline.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "waymark/core/function_blocks.hpp"
 
@@ -37,8 +37,10 @@ class Recorder final : public Filter {
 };
 
 struct Fixture {
-  explicit Fixture(PipelineOptions options = {}, LandmarkSensor sensor = {}, Observe observe = Observe::kRangeBearing)
-      : pipeline(filter, options, {}, sensor, observe, [this](const Step& step) { stamps.push_back(step.stamp); }) {}
+  explicit Fixture(PipelineOptions options = {}, LandmarkSensor sensor = {},
+                   Observe observe = Observe::kRangeBearing)
+      : pipeline(filter, options, {}, sensor, observe,
+                 [this](const Step& step) { stamps.push_back(step.stamp); }) {}
 
   void push(std::vector<Event> events) {
     for (auto& event : events) pipeline.push(std::move(event));
@@ -54,7 +56,9 @@ Observation sighting(int number, Measurement value = RangeBearing{2.0, 0.5}) {
   return {LandmarkId{LandmarkId::Family::kMarker, number}, value, std::nullopt};
 }
 
-Event seen(double seconds, std::vector<Observation> observations) { return {at(seconds), Observations(std::move(observations))}; }
+Event seen(double seconds, std::vector<Observation> observations) {
+  return {at(seconds), Observations(std::move(observations))};
+}
 Event speed(double seconds, double v_mps) { return {at(seconds), Velocity{v_mps, 0.0}}; }
 
 TEST(Pipeline, PutsLateEventsInTheirPlace) {
@@ -119,8 +123,9 @@ TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {
   sensor.max_range_m = 5.0;
   Fixture f({}, sensor);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  f.push({seen(0.0, {sighting(1, RangeBearing{6.0, 0.0}), sighting(1, RangeBearing{-1.0, 0.0}), sighting(1, RangeBearing{nan, 0.0}),
-                     sighting(1, RangeBearing{1.0, nan}), sighting(1)})});
+  f.push(
+      {seen(0.0, {sighting(1, RangeBearing{6.0, 0.0}), sighting(1, RangeBearing{-1.0, 0.0}),
+                  sighting(1, RangeBearing{nan, 0.0}), sighting(1, RangeBearing{1.0, nan}), sighting(1)})});
   EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
   EXPECT_EQ(f.pipeline.counts().unusable, 4);
 }
@@ -134,7 +139,12 @@ TEST(Pipeline, CarriesOnOverAGapInTheOdometry) {
 
 TEST(Pipeline, ReportsOneStepPerStamp) {
   Fixture f;
-  f.push({speed(0.0, 1.0), speed(0.5, 1.0), seen(0.5, {sighting(1)}), {at(0.7), Truth{}}, {at(0.8), Image{}}, speed(1.0, 0.0)});
+  f.push({speed(0.0, 1.0),
+          speed(0.5, 1.0),
+          seen(0.5, {sighting(1)}),
+          {at(0.7), Truth{}},
+          {at(0.8), Image{}},
+          speed(1.0, 0.0)});
   EXPECT_EQ(f.stamps, (std::vector<Stamp>{at(0.0), at(0.5), at(1.0)}));
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
+
+#include <gtest/gtest.h>
 
 namespace waymark::test {
 
@@ -20,6 +20,7 @@ inline std::filesystem::path data_path(std::string_view name) { return data_dir(
 }  // namespace waymark::test
 
 /// Skips the running test, by name, where a recording is not on this machine.
-#define WAYMARK_REQUIRE_DATA(name)                                                 \
-  if (!std::filesystem::exists(waymark::test::data_path(name)))                    \
-  GTEST_SKIP() << "no recording " << waymark::test::data_path(name) << "; set WAYMARK_DATA_DIR to where it lies"
+#define WAYMARK_REQUIRE_DATA(name)                                  \
+  if (!std::filesystem::exists(waymark::test::data_path(name)))     \
+  GTEST_SKIP() << "no recording " << waymark::test::data_path(name) \
+               << "; set WAYMARK_DATA_DIR to where it lies"

@@ -12,8 +12,8 @@ struct GateOptions {
 
 void describe(Schema& schema, GateOptions& options);
 
-/// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a reader
-/// misreads now and then.
+/// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a
+/// reader misreads now and then.
 class Gate {
  public:
   explicit Gate(const GateOptions& options);

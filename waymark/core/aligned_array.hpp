@@ -9,8 +9,8 @@
 
 namespace waymark {
 
-/// A fixed number of zeros, aligned to 64 bytes. Large arrays take memory page by page as they are first written, so
-/// that a generous capacity costs nothing until it is used. Throws std::bad_alloc.
+/// A fixed number of zeros, aligned to 64 bytes. Large arrays take memory page by page as they are first
+/// written, so that a generous capacity costs nothing until it is used. Throws std::bad_alloc.
 template <class T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -18,7 +18,8 @@ class AlignedArray {
  public:
   static constexpr std::size_t kAlignment = 64;
 
-  explicit AlignedArray(std::size_t count) : memory_(std::calloc(count * sizeof(T) + kAlignment, 1)), size_(count) {
+  explicit AlignedArray(std::size_t count)
+      : memory_(std::calloc(count * sizeof(T) + kAlignment, 1)), size_(count) {
     if (memory_ == nullptr) throw std::bad_alloc();
     const auto address = reinterpret_cast<std::uintptr_t>(memory_.get());
     data_ = reinterpret_cast<T*>((address + kAlignment - 1) / kAlignment * kAlignment);

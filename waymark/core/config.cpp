@@ -1,8 +1,5 @@
 #include "waymark/core/config.hpp"
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -12,6 +9,10 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+
+#include <fmt/format.h>
+
+#include "waymark/core/flat_yaml.hpp"
 
 namespace waymark {
 namespace {
@@ -45,7 +46,8 @@ template <class Number>
 std::function<bool(std::string_view)> number_setter(Number& field, Limits limits) {
   return [&field, limits](std::string_view text) {
     const auto number = parse_number<Number>(text);
-    if (!number || !(static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high))
+    if (!number ||
+        !(static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high))
       return false;
     field = *number;
     return true;
@@ -67,36 +69,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Visits every scalar of a tree of sections as ("section.key", value, line).
-template <class Visit>
-Result<void> visit_scalars(const YAML::Node& node, const std::string& prefix, const std::string& file,
-                           const Visit& visit) {
-  // An alias of a section inside itself never ends.
-  constexpr std::ptrdiff_t kMaxDepth = 8;
-  if (std::ranges::count(prefix, '.') > kMaxDepth) return Error{fmt::format("{}: {} is nested too deep", file, prefix)};
-  for (const auto& entry : node) {
-    const std::string name = prefix + entry.first.Scalar();
-    const std::string where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
-    if (entry.second.IsMap()) {
-      if (auto done = visit_scalars(entry.second, name + ".", file, visit); !done) return done;
-    } else if (!entry.second.IsScalar()) {
-      return Error{fmt::format("{}: {} needs a single value", where, name)};
-    } else if (auto done = visit(name, entry.second.Scalar(), where); !done) {
-      return done;
-    }
-  }
-  return {};
-}
-
 /// The text as YAML reads it back: in double quotes, with escapes, unless it is surely a plain scalar.
 std::string yaml_scalar(const std::string& text) {
-  const auto is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '/'; };
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '/';
+  };
   const bool null = text == "null" || text == "Null" || text == "NULL";
-  if (parse_number<double>(text) || (!text.empty() && !null && std::ranges::all_of(text, is_plain))) return text;
+  if (parse_number<double>(text) || (!text.empty() && !null && std::ranges::all_of(text, is_plain)))
+    return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') quoted += '\\';
-    quoted += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c)) : std::string(1, c);
+    quoted += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c))
+                                                   : std::string(1, c);
   }
   return quoted + "\"";
 }
@@ -121,18 +106,30 @@ void Schema::add(Key key) {
 }
 
 void Schema::real(std::string name, double& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), describe_limits(limits), [&field] { return fmt::format("{}", field); },
-       number_setter(field, limits), {}});
+  add({std::move(name),
+       std::move(help),
+       describe_limits(limits),
+       [&field] { return fmt::format("{}", field); },
+       number_setter(field, limits),
+       {}});
 }
 
 void Schema::integer(std::string name, int& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), {}});
+  add({std::move(name),
+       std::move(help),
+       "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); },
+       number_setter(field, limits),
+       {}});
 }
 
 void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), {}});
+  add({std::move(name),
+       std::move(help),
+       "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); },
+       number_setter(field, limits),
+       {}});
 }
 
 void Schema::boolean(std::string name, bool& field, std::string help) {
@@ -141,8 +138,12 @@ void Schema::boolean(std::string name, bool& field, std::string help) {
     field = text == "true";
     return true;
   };
-  add({std::move(name), std::move(help), "true or false",
-       [&field] { return std::string(field ? "true" : "false"); }, std::move(set), {}});
+  add({std::move(name),
+       std::move(help),
+       "true or false",
+       [&field] { return std::string(field ? "true" : "false"); },
+       std::move(set),
+       {}});
 }
 
 void Schema::text(std::string name, std::string& field, std::string help) {
@@ -162,8 +163,12 @@ void Schema::add_choice(std::string name, std::vector<std::string> names, std::s
     set(static_cast<std::size_t>(found - shared->begin()));
     return true;
   };
-  add({std::move(name), std::move(help), join(*shared), [shared, get = std::move(get)] { return (*shared)[get()]; },
-       std::move(set_by_name), {}});
+  add({std::move(name),
+       std::move(help),
+       join(*shared),
+       [shared, get = std::move(get)] { return (*shared)[get()]; },
+       std::move(set_by_name),
+       {}});
 }
 
 const Schema::Key* Schema::find(std::string_view name) const {
@@ -186,15 +191,17 @@ std::string Schema::nearest(std::string_view name) const {
   for (const auto& key : keys_)
     if (last_part(key.name) == last_part(name)) same.push_back(key.name);
   if (same.empty()) return nearest_name(name, keys());
-  return *std::ranges::min_element(same, {}, [name](const std::string& key) { return edit_distance(key, name); });
+  return *std::ranges::min_element(same, {},
+                                   [name](const std::string& key) { return edit_distance(key, name); });
 }
 
 Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
   const Key* found = find(key);
   if (found == nullptr) {
     const std::string guess = nearest(key);
-    return Error{fmt::format("{}: unknown key {}{}", where, key,
-                             guess.empty() ? "; `waymark config` lists all keys" : fmt::format("; did you mean {}?", guess))};
+    return Error{fmt::format(
+        "{}: unknown key {}{}", where, key,
+        guess.empty() ? "; `waymark config` lists all keys" : fmt::format("; did you mean {}?", guess))};
   }
   if (!found->set(value))
     return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
@@ -209,16 +216,11 @@ Result<void> Schema::set_assignment(std::string_view assignment, std::string_vie
 }
 
 Result<void> Schema::load_text(const std::string& yaml, const std::string& name) {
-  try {
-    const YAML::Node root = YAML::Load(yaml);
-    if (root.IsNull()) return {};
-    if (!root.IsMap()) return Error{name + ":1: expected sections of `key: value`"};
-    return visit_scalars(root, "", name, [this](const std::string& key, const std::string& value, const std::string& where) {
-      return set(key, value, where);
-    });
-  } catch (const YAML::Exception& problem) {
-    return Error{fmt::format("{}:{}: {}", name, problem.mark.line + 1, problem.msg)};
-  }
+  const auto entries = flatten_yaml(yaml, name);
+  if (!entries) return entries.error();
+  for (const auto& [key, value, line] : *entries)
+    if (auto done = set(key, value, fmt::format("{}:{}", name, line)); !done) return done;
+  return {};
 }
 
 Result<void> Schema::load_file(const std::filesystem::path& path) {

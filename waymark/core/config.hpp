@@ -20,11 +20,13 @@ struct Limits {
 };
 
 /// Binds config keys to the fields of plain option structs: every key has a name that carries its unit, a
-/// default (what the field holds when it is added), limits, and one line of help. The fields must outlive the schema.
+/// default (what the field holds when it is added), limits, and one line of help. The fields must outlive the
+/// schema.
 ///
 ///     struct GateOptions { double probability = 0.999; };
 ///     void describe(Schema& schema, GateOptions& o) {
-///       schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true sightings that may pass");
+///       schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true sightings that may
+///       pass");
 ///     }
 class Schema {
  public:
@@ -38,7 +40,8 @@ class Schema {
   template <class Enum>
   void choice(std::string name, Enum& field, std::vector<std::string> names, std::string help) {
     add_choice(
-        std::move(name), std::move(names), std::move(help), [&field] { return static_cast<std::size_t>(field); },
+        std::move(name), std::move(names), std::move(help),
+        [&field] { return static_cast<std::size_t>(field); },
         [&field](std::size_t index) { field = static_cast<Enum>(index); });
   }
 
@@ -54,7 +57,8 @@ class Schema {
   /// The same from memory; `name` stands for the file in errors.
   Result<void> load_text(const std::string& yaml, const std::string& name);
 
-  /// The complete config in force as YAML with help, unit and limits as comments. load_text() of it changes nothing.
+  /// The complete config in force as YAML with help, unit and limits as comments. load_text() of it changes
+  /// nothing.
   [[nodiscard]] std::string to_yaml() const;
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
@@ -81,7 +85,8 @@ class Schema {
   std::vector<Key> keys_;
 };
 
-/// The names nearest to a mistyped one, for "did you mean": Levenshtein distance, ties in order. Empty if none is near.
+/// The names nearest to a mistyped one, for "did you mean": Levenshtein distance, ties in order. Empty if
+/// none is near.
 [[nodiscard]] std::string nearest_name(std::string_view mistyped, const std::vector<std::string>& known);
 
 }  // namespace waymark

@@ -6,13 +6,20 @@ namespace waymark {
 
 const char* describe(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kMatched: return "matched";
-    case Outcome::kAdded: return "added";
-    case Outcome::kGated: return "outside its gate";
-    case Outcome::kUnidentified: return "without identity";
-    case Outcome::kUnusable: return "unusable";
-    case Outcome::kDuplicate: return "seen twice in one scan";
-    case Outcome::kMapFull: return "map full";
+    case Outcome::kMatched:
+      return "matched";
+    case Outcome::kAdded:
+      return "added";
+    case Outcome::kGated:
+      return "outside its gate";
+    case Outcome::kUnidentified:
+      return "without identity";
+    case Outcome::kUnusable:
+      return "unusable";
+    case Outcome::kDuplicate:
+      return "seen twice in one scan";
+    case Outcome::kMapFull:
+      return "map full";
   }
   return "unknown";
 }

@@ -17,9 +17,9 @@ enum class Outcome : std::uint8_t {
   kAdded,         ///< became a new landmark
   kGated,         ///< too far from where its landmark was expected: a misread identity or a wild measurement
   kUnidentified,  ///< carries no identity, and this filter was told that identities are known
-  kUnusable,      ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
-  kDuplicate,     ///< a second sighting of one landmark in one scan
-  kMapFull,       ///< would have been a new landmark, but there is no room
+  kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
+  kDuplicate,  ///< a second sighting of one landmark in one scan
+  kMapFull,    ///< would have been a new landmark, but there is no room
 };
 
 [[nodiscard]] const char* describe(Outcome outcome);
@@ -40,8 +40,8 @@ struct Correction {
   [[nodiscard]] int count(Outcome outcome) const;
 };
 
-/// The seam between the pipeline and whatever estimates: one virtual call per step, everything within is concrete.
-/// predict(), correct() and pose() neither allocate in a steady state nor throw.
+/// The seam between the pipeline and whatever estimates: one virtual call per step, everything within is
+/// concrete. predict(), correct() and pose() neither allocate in a steady state nor throw.
 class Filter {
  public:
   Filter() = default;

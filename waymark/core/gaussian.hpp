@@ -1,8 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <optional>
 
 namespace waymark {
 

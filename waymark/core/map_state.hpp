@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
@@ -25,9 +26,10 @@ struct Snapshot {
   std::vector<LandmarkEstimate> landmarks;
 };
 
-/// The whole belief with its correlations, as it is saved: mean and covariance of (pose, landmark 1, landmark 2, ...).
+/// The whole belief with its correlations, as it is saved: mean and covariance of (pose, landmark 1, landmark
+/// 2, ...).
 struct MapState {
-  std::string made_by;        ///< program, version and input
+  std::string made_by;         ///< program, version and input
   int landmark_dimension = 2;  ///< 2: (x, y); 3: (x, y, z)
   Stamp stamp;
   Pose2 T_world_robot;

@@ -6,11 +6,12 @@
 
 namespace waymark {
 
-/// What every kind of odometry becomes, and all that a filter knows of it: how far the robot moved, in the frame
-/// it had before, and how sure that is.
+/// What every kind of odometry becomes, and all that a filter knows of it: how far the robot moved, in the
+/// frame it had before, and how sure that is.
 struct Motion {
   Pose2 increment;  ///< T_before_after
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, theta) of the increment, robot frame before
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< of (x, y, theta) of the increment, robot frame before
 };
 
 /// The robot stood still: no noise enters, no particle is moved.

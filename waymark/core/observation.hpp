@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace waymark {
 

@@ -10,7 +10,8 @@
 namespace waymark {
 
 /// A few threads that wait for the same job over numbered blocks. The work is cut into blocks by the caller,
-/// independently of the number of threads, so that results do not depend on it. Starting a job allocates nothing.
+/// independently of the number of threads, so that results do not depend on it. Starting a job allocates
+/// nothing.
 class ThreadTeam {
  public:
   /// `threads` >= 1, the caller's included.
@@ -21,7 +22,8 @@ class ThreadTeam {
 
   [[nodiscard]] int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls job(block) for every block in [0, blocks), on any thread and in any order; returns when all are done.
+  /// Calls job(block) for every block in [0, blocks), on any thread and in any order; returns when all are
+  /// done.
   template <class Job>
   void run(int blocks, Job&& job) {
     if (workers_.empty() || blocks < 2) {
@@ -29,8 +31,9 @@ class ThreadTeam {
       return;
     }
     using Callable = std::remove_reference_t<Job>;
-    start(blocks, [](void* context, int block) { (*static_cast<Callable*>(context))(block); },
-          const_cast<std::remove_const_t<Callable>*>(&job));
+    start(
+        blocks, [](void* context, int block) { (*static_cast<Callable*>(context))(block); },
+        const_cast<std::remove_const_t<Callable>*>(&job));
   }
 
  private:

@@ -6,7 +6,8 @@
 
 namespace waymark {
 
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53} * counter[0];
     const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * counter[2];
@@ -17,8 +18,10 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, st
   return counter;
 }
 
-// The counter holds (block, purpose and the step's high bits, step's low bits, particle); the key is the seed.
-RandomStream::RandomStream(std::uint64_t seed, StreamPurpose purpose, std::uint64_t step, std::uint32_t particle)
+// The counter holds (block, purpose and the step's high bits, step's low bits, particle); the key is the
+// seed.
+RandomStream::RandomStream(std::uint64_t seed, StreamPurpose purpose, std::uint64_t step,
+                           std::uint32_t particle)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
       counter_{0, (static_cast<std::uint32_t>(purpose) << 24) ^ static_cast<std::uint32_t>(step >> 32),
                static_cast<std::uint32_t>(step), particle} {}

@@ -26,7 +26,8 @@ struct LogInfo {
   /// below what the user says.
   std::vector<std::pair<std::string, std::string>> settings;
   std::vector<TrueLandmark> landmarks;
-  std::optional<Eigen::Vector2d> truth_sensor_m;  ///< where on the robot the truth was measured; empty: its origin
+  std::optional<Eigen::Vector2d>
+      truth_sensor_m;  ///< where on the robot the truth was measured; empty: its origin
 };
 
 /// Anything that produces events: a reader, the simulator, a robot. Who reads it cannot tell which.
@@ -39,7 +40,8 @@ class Source {
 
   [[nodiscard]] virtual const LogInfo& info() const = 0;
 
-  /// The next event, nothing at the end, or why reading cannot go on. Events of one kind come in the log's order.
+  /// The next event, nothing at the end, or why reading cannot go on. Events of one kind come in the log's
+  /// order.
   [[nodiscard]] virtual Result<std::optional<Event>> next() = 0;
 
   /// What was skipped, mended or odd so far, one line each, with counts.

@@ -28,7 +28,8 @@ std::optional<Stamp> parse_plain_decimal(std::string_view text) {
   const std::size_t dot = text.find('.');
   const std::string_view whole = text.substr(0, dot);
   const std::string_view fraction = dot == std::string_view::npos ? "" : text.substr(dot + 1);
-  if (whole.size() + fraction.size() == 0 || whole.size() > 9 + 1 || !is_digits(whole) || !is_digits(fraction))
+  if (whole.size() + fraction.size() == 0 || whole.size() > 9 + 1 || !is_digits(whole) ||
+      !is_digits(fraction))
     return std::nullopt;
   std::int64_t seconds = 0;
   std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
@@ -56,12 +57,12 @@ std::optional<Stamp> parse_stamp(std::string_view text) {
 
 std::string to_string(Stamp stamp) {
   const std::int64_t nanos = stamp.since_epoch.count();
-  const auto magnitude = nanos < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(nanos) : static_cast<std::uint64_t>(nanos);
+  const auto magnitude =
+      nanos < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(nanos) : static_cast<std::uint64_t>(nanos);
   char text[40];
-  const int length =
-      std::snprintf(text, sizeof text, "%s%llu.%09llu", nanos < 0 ? "-" : "",
-                    static_cast<unsigned long long>(magnitude / kNanosPerSecond),
-                    static_cast<unsigned long long>(magnitude % kNanosPerSecond));
+  const int length = std::snprintf(text, sizeof text, "%s%llu.%09llu", nanos < 0 ? "-" : "",
+                                   static_cast<unsigned long long>(magnitude / kNanosPerSecond),
+                                   static_cast<unsigned long long>(magnitude % kNanosPerSecond));
   return {text, static_cast<std::size_t>(length)};
 }
 

@@ -29,8 +29,8 @@ struct Stamp {
 [[nodiscard]] Stamp stamp_from_seconds(double seconds);
 
 /// Reads decimal seconds such as "1248444175.103" exactly (a double would lose the last digits of a
-/// Unix stamp). Nine decimals count, further ones are cut off; exponents are accepted through a double. Empty: not a
-/// finite number, something before or after it, or 9e9 s and more (stamps in ns or ms, say).
+/// Unix stamp). Nine decimals count, further ones are cut off; exponents are accepted through a double.
+/// Empty: not a finite number, something before or after it, or 9e9 s and more (stamps in ns or ms, say).
 [[nodiscard]] std::optional<Stamp> parse_stamp(std::string_view text);
 
 /// Decimal seconds with nine decimals, the inverse of `parse_stamp` to the last nanosecond below 9e9 s.

@@ -14,8 +14,9 @@ enum Block : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
   const auto* z = std::get_if<RangeBearing>(&observation.value);
-  const bool usable = z != nullptr && observation.covariance.has_value() && observation.covariance->allFinite() &&
-                      std::isfinite(z->range_m) && std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
+  const bool usable = z != nullptr && observation.covariance.has_value() &&
+                      observation.covariance->allFinite() && std::isfinite(z->range_m) &&
+                      std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
   if (!usable) return Outcome::kUnusable;
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
 }
@@ -23,12 +24,16 @@ Outcome admissible(const Observation& observation) {
 }  // namespace
 
 void describe(Schema& schema, EkfOptions& options) {
-  schema.choice("ekf.consistency", options.consistency, {"invariant", "fej", "standard"},
-                "where the filter linearises: invariant error, first estimates, or latest estimates as in the article");
-  schema.integer("ekf.capacity", options.capacity, {1, 20000}, "most landmarks in the map; memory is taken once");
+  schema.choice(
+      "ekf.consistency", options.consistency, {"invariant", "fej", "standard"},
+      "where the filter linearises: invariant error, first estimates, or latest estimates as in the article");
+  schema.integer("ekf.capacity", options.capacity, {1, 20000},
+                 "most landmarks in the map; memory is taken once");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
-                "whether a large map is updated region by region, at the cost of a small one; auto: once it is large enough to gain");
-  schema.integer("ekf.region", options.region, {48, 20000}, "landmarks in a region of a compressed map; more where so many are seen at once");
+                "whether a large map is updated region by region, at the cost of a small one; auto: once it "
+                "is large enough to gain");
+  schema.integer("ekf.region", options.region, {48, 20000},
+                 "landmarks in a region of a compressed map; more where so many are seen at once");
 }
 
 ekf::Compression compression(const EkfOptions& options) {
@@ -75,9 +80,11 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
 void EkfSlam::prepare(std::size_t count) { innovations_.assign(count, {}); }
 
 bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
-  return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index), [id](const Innovation& earlier) {
-    return earlier.landmark == id && (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded);
-  });
+  return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index),
+                     [id](const Innovation& earlier) {
+                       return earlier.landmark == id &&
+                              (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded);
+                     });
 }
 
 /// Decides what becomes of one observation, all at the pose before the update.
@@ -95,7 +102,8 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
     innovation.outcome = state_.landmarks() < state_.capacity() ? Outcome::kAdded : Outcome::kMapFull;
     return;
   }
-  const auto sighting = linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance);
+  const auto sighting =
+      linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance);
   const auto nis = mahalanobis_squared<2>(sighting.nu, state_.innovation_covariance(sighting));
   innovation.dof = nis ? 2 : 0;
   innovation.nis = nis.value_or(0.0);
@@ -128,13 +136,16 @@ void EkfSlam::update(std::span<const Observation> observations) {
     for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next) {
       if (innovations_[next].outcome != Outcome::kMatched) continue;
       const int landmark = *index_.find(innovations_[next].landmark);
-      sightings_.push_back(linearize(landmark, std::get<RangeBearing>(observations[next].value), *observations[next].covariance));
+      sightings_.push_back(linearize(landmark, std::get<RangeBearing>(observations[next].value),
+                                     *observations[next].covariance));
     }
     const bool done = state_.update(sightings_);
     for (std::size_t i = first; i < next; ++i) {
       if (innovations_[i].outcome != Outcome::kMatched) continue;
-      if (done) ++landmarks_[static_cast<std::size_t>(*index_.find(innovations_[i].landmark))].observations;
-      else innovations_[i].outcome = Outcome::kUnusable;
+      if (done)
+        ++landmarks_[static_cast<std::size_t>(*index_.find(innovations_[i].landmark))].observations;
+      else
+        innovations_[i].outcome = Outcome::kUnusable;
     }
   }
 }
@@ -151,7 +162,8 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   G_pose.topRows<2>() = inverse.G_pose;
   G_pose.block<2, 1>(0, 2) = perpendicular(inverse.p_world - state_.linearization_pose().position());
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise.topLeftCorner<2, 2>() = inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
+  noise.topLeftCorner<2, 2>() =
+      inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
   index_.assign(*observation.id, state_.add(position, G_pose, noise));
   landmarks_.push_back({*observation.id, 1});
 }

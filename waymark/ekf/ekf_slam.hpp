@@ -25,8 +25,8 @@ struct EkfOptions {
 
 void describe(Schema& schema, EkfOptions& options);
 
-/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known identities,
-/// gated one by one; a first sighting adds its landmark.
+/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known
+/// identities, gated one by one; a first sighting adds its landmark.
 class EkfSlam final : public Filter {
  public:
   EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1);

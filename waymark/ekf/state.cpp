@@ -53,7 +53,8 @@ Eigen::Vector3d State::landmark(int index) const { return point(x_, index); }
 
 Eigen::Matrix3d State::landmark_covariance(int index) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  covariance.topLeftCorner(dimension_, dimension_) = joint_covariance(index).block(3, 3, dimension_, dimension_);
+  covariance.topLeftCorner(dimension_, dimension_) =
+      joint_covariance(index).block(3, 3, dimension_, dimension_);
   return covariance;
 }
 
@@ -72,7 +73,8 @@ void State::set_pose(const PoseEstimate& pose) {
   x_[2] = pose.T_world_robot.theta_rad;
   linearization_pose_ = pose.T_world_robot;
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] = pose.covariance(static_cast<int>(i), static_cast<int>(j));
+    for (std::size_t j = i; j < 3; ++j)
+      P_[i * ld_ + j] = pose.covariance(static_cast<int>(i), static_cast<int>(j));
 }
 
 void State::predict(const Motion& motion) {
@@ -113,14 +115,16 @@ Eigen::Vector2d State::join_robot_rows() {
   return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
 }
 
-/// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row zero.
+/// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row
+/// zero.
 Eigen::Matrix<double, 6, 6> State::joint_covariance(int index) const {
   Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
   const std::size_t first = offset(index);
   const auto d = static_cast<std::size_t>(dimension_);
   for (std::size_t i = 0; i < 3 + d; ++i)
     for (std::size_t j = i; j < 3 + d; ++j)
-      joint(static_cast<int>(i), static_cast<int>(j)) = P(i < 3 ? i : first + i - 3, j < 3 ? j : first + j - 3);
+      joint(static_cast<int>(i), static_cast<int>(j)) =
+          P(i < 3 ? i : first + i - 3, j < 3 ? j : first + j - 3);
   joint.block(0, 3, 2, dimension_) += pending_phi_ * joint.block(2, 3, 1, dimension_);
   joint.triangularView<Eigen::StrictlyLower>() = joint.transpose();
   return joint;
@@ -160,7 +164,8 @@ std::size_t State::project(std::span<const Sighting> sightings) {
     H << sighting.H_pose, sighting.H_landmark;
     Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor, 2, 6> H_touched = H.leftCols(3 + dimension_);
     const auto rows = static_cast<std::size_t>(sighting.rows);
-    kernels::project_rows(P_.data(), ld_, size(), touched.data(), 3 + d, H_touched.data(), rows, &W_[row * ld_], ld_);
+    kernels::project_rows(P_.data(), ld_, size(), touched.data(), 3 + d, H_touched.data(), rows,
+                          &W_[row * ld_], ld_);
     nu_.segment(static_cast<int>(row), sighting.rows) = sighting.nu.head(sighting.rows);
     row += rows;
   }
@@ -177,7 +182,8 @@ void State::form_innovation_covariance(std::span<const Sighting> sightings, int 
       for (int r = 0; r < sighting.rows; ++r) {
         double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
         for (int k = 0; k < 3; ++k) s += c[k] * sighting.H_pose(r, k);
-        for (int k = 0; k < dimension_; ++k) s += c[first + static_cast<std::size_t>(k)] * sighting.H_landmark(r, k);
+        for (int k = 0; k < dimension_; ++k)
+          s += c[first + static_cast<std::size_t>(k)] * sighting.H_landmark(r, k);
         S_(i, column + r) = s;
       }
     }
@@ -191,7 +197,8 @@ bool State::factorize(int rows) {
     const double pivot = S_(j, j) - S_.row(j).head(j).squaredNorm();
     if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
     S_(j, j) = std::sqrt(pivot);
-    for (int i = j + 1; i < rows; ++i) S_(i, j) = (S_(i, j) - S_.row(i).head(j).dot(S_.row(j).head(j))) / S_(j, j);
+    for (int i = j + 1; i < rows; ++i)
+      S_(i, j) = (S_(i, j) - S_.row(i).head(j).dot(S_.row(j).head(j))) / S_(j, j);
     nu_[j] = (nu_[j] - S_.row(j).head(j).dot(nu_.head(j))) / S_(j, j);
   }
   return true;
@@ -204,8 +211,8 @@ void State::apply_additively(std::size_t rows) {
   correct_covariance(rows, false);
 }
 
-/// The ordinary increment dq of every ground point becomes V(a) dq, with a the change of heading, and the covariance
-/// is sheared along d = J V(a) dq: the right-invariant filter in ordinary coordinates.
+/// The ordinary increment dq of every ground point becomes V(a) dq, with a the change of heading, and the
+/// covariance is sheared along d = J V(a) dq: the right-invariant filter in ordinary coordinates.
 void State::apply_invariantly(std::size_t rows) {
   const double turn = dx_[2];
   const Eigen::Matrix2d V = turn_jacobian(turn);
@@ -241,9 +248,11 @@ void State::correct_covariance(std::size_t rows, bool shear) {
   if (shear) prepare_shear(rows);
   const int bands = size() < kParallelSize ? 1 : team_.size();
   team_.run(bands, [&](int band) {
-    const auto range = kernels::triangle_band(size(), static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
+    const auto range =
+        kernels::triangle_band(size(), static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
     if (shear)
-      kernels::symmetric_update(P_.data(), ld_, size(), W_.data(), ld_, rows, shear_d_.data(), shear_e_.data(), range);
+      kernels::symmetric_update(P_.data(), ld_, size(), W_.data(), ld_, rows, shear_d_.data(),
+                                shear_e_.data(), range);
     else
       kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows, range);
   });
@@ -251,21 +260,27 @@ void State::correct_covariance(std::size_t rows, bool shear) {
 
 Gain State::gain() const {
   const bool sheared = consistency_ == Consistency::kInvariant;
-  return {rows_,      ld_, W_.data(), static_cast<std::size_t>(S_.cols()), S_.data(), nu_.data(),
-          sheared ? shear_d_.data() : nullptr, dx_[2]};
+  return {rows_,
+          ld_,
+          W_.data(),
+          static_cast<std::size_t>(S_.cols()),
+          S_.data(),
+          nu_.data(),
+          sheared ? shear_d_.data() : nullptr,
+          dx_[2]};
 }
 
 int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
   join_robot_rows();
   const std::array<std::size_t, 3> robot{0, 1, 2};
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> G = G_pose;
-  kernels::project_rows(P_.data(), ld_, size(), robot.data(), 3, G.data(), static_cast<std::size_t>(dimension_),
-                        W_.data(), ld_);
+  kernels::project_rows(P_.data(), ld_, size(), robot.data(), 3, G.data(),
+                        static_cast<std::size_t>(dimension_), W_.data(), ld_);
   return insert(position, position, W_.data(), ld_, G_pose * pose().covariance * G_pose.transpose() + noise);
 }
 
-int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross, std::size_t ld,
-                  const Eigen::Matrix3d& covariance) {
+int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+                  std::size_t ld, const Eigen::Matrix3d& covariance) {
   assert(landmarks_ < capacity_);
   join_robot_rows();
   const std::size_t n = size();
@@ -293,7 +308,9 @@ void State::remove(int index) {
   --landmarks_;
 }
 
-Eigen::VectorXd State::mean() const { return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<int>(size())); }
+Eigen::VectorXd State::mean() const {
+  return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<int>(size()));
+}
 
 Eigen::MatrixXd State::covariance() const {
   const auto n = static_cast<int>(size());

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/motion.hpp"
@@ -12,13 +13,14 @@ namespace waymark::ekf {
 
 /// At which point the filter linearises, which decides whether it fools itself about its heading.
 enum class Consistency {
-  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after each update
+  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after
+               ///< each update
   kFej,        ///< first-estimates Jacobians (Huang, Mourikis, Roumeliotis 2010)
   kStandard,   ///< at the latest estimate, as in the 2012 article; overconfident when the odometry is poor
 };
 
-/// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its noise.
-/// Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
+/// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
+/// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
 struct Sighting {
   int landmark = 0;
   int rows = 2;
@@ -28,24 +30,27 @@ struct Sighting {
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
 };
 
-/// What an update did, for a filter that remembers more than the state holds. Views into the state, good until it is
-/// next changed.
+/// What an update did, for a filter that remembers more than the state holds. Views into the state, good
+/// until it is next changed.
 struct Gain {
-  std::size_t rows;     ///< D, measurement rows
-  std::size_t ld;       ///< stride of W
-  const double* W;      ///< D x n: L^-1 H P, so that P <- P - W^T W
-  std::size_t ld_L;     ///< stride of L
-  const double* L;      ///< D x D, lower: L L^T = H P H^T + R
-  const double* nu;     ///< D: L^-1 nu, so that dx = W^T nu
-  const double* shear;  ///< n: d of the invariant filter's shear P <- (I + d e_theta^T) P (I + d e_theta^T)^T, or null
-  double turn;          ///< change of heading, rad
+  std::size_t rows;  ///< D, measurement rows
+  std::size_t ld;    ///< stride of W
+  const double* W;   ///< D x n: L^-1 H P, so that P <- P - W^T W
+  std::size_t ld_L;  ///< stride of L
+  const double* L;   ///< D x D, lower: L L^T = H P H^T + R
+  const double* nu;  ///< D: L^-1 nu, so that dx = W^T nu
+  const double*
+      shear;  ///< n: d of the invariant filter's shear P <- (I + d e_theta^T) P (I + d e_theta^T)^T, or null
+  double turn;  ///< change of heading, rad
 };
 
-/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that writes
-/// either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here allocates later.
+/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that
+/// writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here
+/// allocates later.
 ///
-/// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension * landmarks:
-/// predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop, add O(n), remove O(n).
+/// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension *
+/// landmarks: predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop,
+/// add O(n), remove O(n).
 class State {
  public:
   State(int dimension, int capacity, Consistency consistency, int threads = 1);
@@ -76,23 +81,27 @@ class State {
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
 
   /// Exact update with all sightings at once (Vincke et al. 2012, equations 10 to 12, as P -= W^T W with
-  /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive definite.
+  /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive
+  /// definite.
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
 
-  /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only their
-  /// leading `dimension()` rows count. Returns its index. The map must not be full.
+  /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only
+  /// their leading `dimension()` rows count. Returns its index. The map must not be full.
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
 
-  /// Appends a landmark that was estimated elsewhere: `cross` holds its covariance with the whole state so far, one row
-  /// of n values per coordinate, `ld` apart. `first` is its first estimate. Returns its index. The map must not be full.
-  int insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross, std::size_t ld,
-             const Eigen::Matrix3d& covariance);
+  /// Appends a landmark that was estimated elsewhere: `cross` holds its covariance with the whole state so
+  /// far, one row of n values per coordinate, `ld` apart. `first` is its first estimate. Returns its index.
+  /// The map must not be full.
+  int insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+             std::size_t ld, const Eigen::Matrix3d& covariance);
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);
 
   /// Row or column of a landmark in mean and covariance.
-  [[nodiscard]] std::size_t offset(int index) const { return 3 + static_cast<std::size_t>(index * dimension_); }
+  [[nodiscard]] std::size_t offset(int index) const {
+    return 3 + static_cast<std::size_t>(index * dimension_);
+  }
   /// n
   [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
   /// One entry of the covariance.
@@ -103,8 +112,8 @@ class State {
   /// What the last successful update() did; nothing else may have happened since.
   [[nodiscard]] Gain gain() const;
 
-  /// P_rm <- Phi P_rm as far as it is due. Returns phi of Phi = [I, phi; 0, 1]: zero if nothing was due. Every operation
-  /// that needs it does it by itself.
+  /// P_rm <- Phi P_rm as far as it is due. Returns phi of Phi = [I, phi; 0, 1]: zero if nothing was due.
+  /// Every operation that needs it does it by itself.
   Eigen::Vector2d join_robot_rows();
   /// What it would return.
   [[nodiscard]] Eigen::Vector2d pending() const { return pending_phi_; }
@@ -117,7 +126,9 @@ class State {
   using Buffer = AlignedArray<double>;
 
   [[nodiscard]] Eigen::Vector3d point(const Buffer& buffer, int index) const;
-  [[nodiscard]] double P(std::size_t i, std::size_t j) const { return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i]; }
+  [[nodiscard]] double P(std::size_t i, std::size_t j) const {
+    return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
+  }
   [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_covariance(int index) const;
 
   std::size_t project(std::span<const Sighting> sightings);
@@ -134,18 +145,19 @@ class State {
   int landmarks_ = 0;
   std::size_t ld_;
 
-  Buffer x_;              // n: the mean
-  Buffer first_;          // n: first estimates of the landmarks (kFej)
-  Buffer P_;              // n x n, upper triangle
-  Buffer W_;              // D x n: H P, then L^-1 H P
-  Buffer dx_;             // n: K nu
-  Buffer shear_d_;        // n: d of the shear
-  Buffer shear_e_;        // n: c + c_th/2 d
+  Buffer x_;        // n: the mean
+  Buffer first_;    // n: first estimates of the landmarks (kFej)
+  Buffer P_;        // n x n, upper triangle
+  Buffer W_;        // D x n: H P, then L^-1 H P
+  Buffer dx_;       // n: K nu
+  Buffer shear_d_;  // n: d of the shear
+  Buffer shear_e_;  // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
-  Eigen::VectorXd nu_;    // D, then L^-1 nu
-  std::size_t rows_ = 0;  // D of the last update
+  Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
+  std::size_t rows_ = 0;                                                      // D of the last update
 
-  // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last joined.
+  // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last
+  // joined.
   Eigen::Vector2d pending_phi_ = Eigen::Vector2d::Zero();
   bool pending_ = false;
   Pose2 linearization_pose_;  // the predicted pose, x_{k|k-1}

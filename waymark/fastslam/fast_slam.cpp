@@ -22,6 +22,10 @@ constexpr double kMaxPendingHeadingSigma_rad = 0.03;
 // that the particles are lost, and a lost set that gates would stay lost.
 constexpr int kMostGatedInARow = 5;
 
+// How much of a way a turn on the spot counts as: it shows a landmark from no new place, but at a new
+// bearing.
+constexpr double kMetresPerRadian = 0.3;
+
 bool is_finite(const Motion& motion) {
   const Pose2& T = motion.increment;
   return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
@@ -51,6 +55,8 @@ Motion spread_of(const PoseEstimate& pose) {
 }  // namespace
 
 void describe(Schema& schema, FastSlamOptions& o) {
+  schema.choice("fastslam.proposal", o.proposal, {"1.0", "2.0"},
+                "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and sightings");
   schema.integer("fastslam.particles", o.particles, {1, 10'000'000}, "number of particles");
   schema.real("fastslam.resample_below", o.resample_below, {0.0, 1.0},
               "resample when the effective number of particles falls below this part of them");
@@ -59,6 +65,9 @@ void describe(Schema& schema, FastSlamOptions& o) {
       "flatten the weights when the effective number of particles would fall below this part of them");
   schema.real("fastslam.noise_inflation", o.noise_inflation, {0.1, 100.0},
               "factor on the standard deviations of observations; few particles need a blunter sensor");
+  schema.real(
+      "fastslam.evidence_way_m", o.evidence_way_m, {0.0, 1000.0},
+      "a landmark seen again after this way counts 63 % in the weights; 0: every sighting counts in full");
   schema.integer("fastslam.capacity", o.capacity, {1, 1'000'000}, "most landmarks in the map");
 }
 
@@ -71,6 +80,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       particle_blocks_(options.particles, threads),
       particles_(options.particles, initial.T_world_robot),
       store_(particle_blocks_),
+      proposal_(options.particles),
       log_likelihood_(static_cast<std::size_t>(options.particles)),
       ancestors_(static_cast<std::size_t>(options.particles)),
       index_(static_cast<std::size_t>(options.capacity)),
@@ -83,6 +93,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
 void FastSlam::predict(const Motion& motion) {
   if (is_still(motion) || !is_finite(motion)) return;
   pending_ = compose(pending_, motion);
+  way_m_ += motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);
   moved_ = true;
   if (pending_.covariance(2, 2) < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;
   BlockTimer timer(table_);
@@ -105,9 +116,12 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   correction_ = {innovations_, {}};
   if (!any(Outcome::kMatched) && !any(Outcome::kAdded)) return correction_;
 
-  move_particles();
+  if (options_.proposal == ProposalKind::kMotion) move_particles();
   timer.finish(kPredict);
-  update(observations);
+  if (options_.proposal == ProposalKind::kMotion)
+    update(observations);
+  else
+    propose(observations);
   timer.finish(kUpdate);
   if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
@@ -152,8 +166,11 @@ Outcome FastSlam::screen(std::size_t index, const Observation& observation) cons
 }
 
 fastslam::Sighting FastSlam::sighting(const Observation& observation) const {
-  const double inflation = options_.noise_inflation * options_.noise_inflation;
-  return {std::get<RangeBearing>(observation.value), inflation * *observation.covariance, T_robot_sensor_};
+  return {std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_};
+}
+
+Eigen::Matrix2d FastSlam::noise(const Observation& observation) const {
+  return options_.noise_inflation * options_.noise_inflation * *observation.covariance;
 }
 
 void FastSlam::update(std::span<const Observation> observations) {
@@ -176,8 +193,58 @@ void FastSlam::compare(const Observation& observation, Innovation& innovation) {
   judge(moments, innovation);
   if (innovation.outcome != Outcome::kMatched) return;
   store_.accept(landmark);
-  ++landmarks_[static_cast<std::size_t>(landmark)].observations;
-  for (std::size_t i = 0; i < log_likelihood_.size(); ++i) particles_.log_weight[i] += log_likelihood_[i];
+  const double part = evidence(landmark);
+  for (std::size_t i = 0; i < log_likelihood_.size(); ++i)
+    particles_.log_weight[i] += part * log_likelihood_[i];
+  count_sighting(landmark);
+}
+
+/// FastSLAM 2.0: the sightings shape where each particle goes before it goes there; then its landmarks are
+/// updated from where it went.
+void FastSlam::propose(std::span<const Observation> observations) {
+  estimate_ = pose();
+  proposal_.start(particles_, pending_, particle_blocks_);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) condition(observations[i], innovations_[i]);
+  if (any(Outcome::kMatched)) weigh();
+  proposal_.sample(particles_, {seed_, StreamPurpose::kMotion, step_++}, particle_blocks_);
+  pending_ = {};
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) update_landmark(observations[i]);
+}
+
+void FastSlam::condition(const Observation& observation, Innovation& innovation) {
+  const auto moments =
+      proposal_.condition(std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_,
+                          particles_, store_.touch(*index_.find(innovation.landmark)), particle_blocks_);
+  judge(moments, innovation);
+  if (innovation.outcome == Outcome::kMatched)
+    proposal_.accept(particles_, evidence(*index_.find(innovation.landmark)));
+}
+
+/// At the pose that was drawn, with the landmark as it was before the scan.
+void FastSlam::update_landmark(const Observation& observation) {
+  const int landmark = *index_.find(*observation.id);
+  const auto before = store_.touch(landmark);
+  const auto after = store_.draft();
+  const fastslam::Sighting z = sighting(observation);
+  particle_blocks_.run([&](std::size_t begin, std::size_t end) {
+    fastslam::update_landmark(z, particles_, before, after, log_likelihood_.data(), begin, end);
+  });
+  store_.accept(landmark);
+  count_sighting(landmark);
+}
+
+/// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
+double FastSlam::evidence(int landmark) const {
+  const double way_m = way_m_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_way_m;
+  return options_.evidence_way_m > 0.0 ? -std::expm1(-way_m / options_.evidence_way_m) : 1.0;
+}
+
+void FastSlam::count_sighting(int landmark) {
+  Landmark& sighted = landmarks_[static_cast<std::size_t>(landmark)];
+  ++sighted.observations;
+  sighted.seen_at_way_m = way_m_;
 }
 
 /// NIS of the mixture: mean and covariance of the innovation over all particles.
@@ -227,7 +294,7 @@ void FastSlam::add(std::span<const Observation> observations) {
       fastslam::place_landmark(z, particles_, columns, begin, end);
     });
     index_.assign(innovations_[i].landmark, landmark);
-    landmarks_.push_back({innovations_[i].landmark, 1});
+    landmarks_.push_back({innovations_[i].landmark, 1, way_m_});
   }
 }
 

@@ -10,27 +10,42 @@
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/landmark_update.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/proposal.hpp"
 
 namespace waymark {
 
+/// What a particle knows when it draws its next pose.
+enum class ProposalKind {
+  kMotion,    ///< the odometry alone (FastSLAM 1.0, Montemerlo et al. 2002)
+  kSightings  ///< the odometry and what is seen now (FastSLAM 2.0, Montemerlo et al. 2003)
+};
+
 struct FastSlamOptions {
+  ProposalKind proposal = ProposalKind::kSightings;
   int particles = 150;
   double resample_below = 0.5;   ///< resample when N_eff falls below this part of the particles
   double temper_below = 0.1;     ///< flatten weights when N_eff would fall below this part of the particles
+  double evidence_way_m = 1.0;   ///< way between two sightings of a landmark that makes the second one news
   double noise_inflation = 1.0;  ///< on the standard deviations of observations
   int capacity = 1000;           ///< most landmarks in the map
 };
 
 void describe(Schema& schema, FastSlamOptions& options);
 
-/// FastSLAM 1.0 (Montemerlo et al. 2002) over range-bearing sightings of 2-D landmarks with known identities.
-/// Motion is collected until something is seen, then every particle draws from it.
+/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over range-bearing sightings of 2-D landmarks with
+/// known identities. Motion is collected until something is seen, then every particle draws from it.
 ///
 /// Robust where the plain filter starves:
+/// * A sighting weighs particles by how much news it brings: with the power 1 - exp(-w / evidence_way_m) of
+/// its
+///   likelihood, w the way since that landmark was last seen. A landmark under watch says little about where
+///   the path as a whole went, and its errors are alike from frame to frame; weights that count every frame
+///   in full make the set forget its own past by resampling (Bailey, Nieto, Nebot 2006) long before a loop
+///   closes.
 /// * An observation is gated by the whole set, not particle by particle. A set that refuses several in a row
-/// is itself
-///   what is wrong, and has to accept again.
-/// * Weights are never allowed to collapse onto a few particles: they are flattened to keep `temper_below`.
+/// is
+///   itself what is wrong, and has to accept again.
+/// * Weights never collapse onto a few particles: they are flattened to keep `temper_below` effective.
 /// * The pose and its covariance are taken after weighting and before resampling.
 /// * A robot that stands still is neither predicted nor resampled.
 class FastSlam final : public Filter {
@@ -55,6 +70,7 @@ class FastSlam final : public Filter {
   struct Landmark {
     LandmarkId id;
     int observations = 0;
+    double seen_at_way_m = 0.0;
   };
 
   void associate(std::span<const Observation> observations);
@@ -62,6 +78,12 @@ class FastSlam final : public Filter {
   void move_particles();
   void update(std::span<const Observation> observations);
   void compare(const Observation& observation, Innovation& innovation);
+  void condition(const Observation& observation, Innovation& innovation);
+  void propose(std::span<const Observation> observations);
+  void update_landmark(const Observation& observation);
+  [[nodiscard]] double evidence(int landmark) const;
+  void count_sighting(int landmark);
+  [[nodiscard]] Eigen::Matrix2d noise(const Observation& observation) const;
   void judge(const fastslam::InnovationMoments& moments, Innovation& innovation);
   void weigh();
   void resample();
@@ -82,6 +104,7 @@ class FastSlam final : public Filter {
   fastslam::ParticleBlocks particle_blocks_;
   fastslam::Particles particles_;
   fastslam::LandmarkStore store_;
+  fastslam::Proposal proposal_;
   AlignedArray<double> log_likelihood_;
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;
@@ -90,6 +113,7 @@ class FastSlam final : public Filter {
   PoseEstimate estimate_;  // of the particles, after weighting and before resampling
   Motion pending_;         // since the particles were last moved
   bool moved_ = false;     // since the last correct()
+  double way_m_ = 0.0;     // driven so far, turns included
   std::uint64_t step_ = 0;
   std::int64_t resamplings_ = 0;
   int gated_in_a_row_ = 0;

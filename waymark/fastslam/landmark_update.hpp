@@ -26,7 +26,8 @@ struct Sighting {
 };
 
 /// sum w (nu_r, nu_b, P_rr, P_rb, P_bb, l) over particles of weight w, with nu the innovation, P = Z + nu
-/// nu^T its second moment about zero (Z = H Sigma H^T + R) and l the log-likelihood.
+/// nu^T its second moment about zero (Z = H Sigma H^T + R) and l the log-likelihood. To take the mean of
+/// angles, nu_b is within half a turn of that of the first particle, and so may leave (-pi, pi].
 using InnovationMoments = std::array<double, 6>;
 
 /// For each particle in [begin, end): the EKF update of its landmark (Montemerlo et al. 2002), from `before`
@@ -36,12 +37,12 @@ using InnovationMoments = std::array<double, 6>;
 ///     Z = Sigma + R,   m' = m + Sigma Z^-1 e,   Sigma' = (det R Sigma + det Sigma R) / det Z.
 /// The last is (I - K H) Sigma as 2x2 matrices allow it to be written: a sum of positive terms. It stays
 /// positive however sharp the sensor, which the usual difference does not, and is cheaper than Joseph's form.
-InnovationMoments update_landmark(const Sighting& sighting, const Particles& particles,
-                                  const LandmarkColumns& before, const LandmarkColumns& after,
-                                  double* log_likelihood, std::size_t begin, std::size_t end);
+InnovationMoments update_landmark(const Sighting& z, const Particles& p, const LandmarkColumns& before,
+                                  const LandmarkColumns& after, double* log_likelihood, std::size_t begin,
+                                  std::size_t end);
 
 /// For each particle in [begin, end): the landmark that it sees for the first time, Sigma = Hm^-1 R Hm^-T.
-void place_landmark(const Sighting& sighting, const Particles& particles, const LandmarkColumns& landmark,
-                    std::size_t begin, std::size_t end);
+void place_landmark(const Sighting& z, const Particles& p, const LandmarkColumns& landmark, std::size_t begin,
+                    std::size_t end);
 
 }  // namespace waymark::fastslam

@@ -14,14 +14,6 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 // 0.
 constexpr double kRelativePivot = 1e-12;
 
-void set_pose(Particles& p, std::size_t i, double x_m, double y_m, double theta_rad) {
-  p.x_m[i] = x_m;
-  p.y_m[i] = y_m;
-  p.theta_rad[i] = wrap_angle(theta_rad);
-  p.cos_theta[i] = std::cos(p.theta_rad[i]);
-  p.sin_theta[i] = std::sin(p.theta_rad[i]);
-}
-
 double largest_log_weight(const Particles& p) {
   double largest = kNever;
   for (std::size_t i = 0; i < p.log_weight.size(); ++i)
@@ -71,14 +63,21 @@ Particles::Particles(int count, const Pose2& T_world_robot)
       sin_theta(static_cast<std::size_t>(count)),
       log_weight(static_cast<std::size_t>(count)),
       weight(static_cast<std::size_t>(count)) {
-  for (std::size_t i = 0; i < weight.size(); ++i)
-    set_pose(*this, i, T_world_robot.x_m, T_world_robot.y_m, T_world_robot.theta_rad);
+  for (std::size_t i = 0; i < weight.size(); ++i) set_pose(i, T_world_robot);
   make_weights_equal(*this);
 }
 
 Pose2 Particles::pose(int i) const {
   const auto k = static_cast<std::size_t>(i);
   return {x_m[k], y_m[k], theta_rad[k]};
+}
+
+void Particles::set_pose(std::size_t i, const Pose2& T_world_robot) {
+  x_m[i] = T_world_robot.x_m;
+  y_m[i] = T_world_robot.y_m;
+  theta_rad[i] = wrap_angle(T_world_robot.theta_rad);
+  cos_theta[i] = std::cos(theta_rad[i]);
+  sin_theta[i] = std::sin(theta_rad[i]);
 }
 
 Eigen::Matrix3d semidefinite_root(const Eigen::Matrix3d& Q) {
@@ -104,8 +103,8 @@ void move(Particles& p, const Motion& motion, const StreamKey& key, ParticleBloc
       const Eigen::Vector3d d = mean + L * Eigen::Vector3d(n0, n1, n2);
       const double c = p.cos_theta[i];
       const double s = p.sin_theta[i];
-      set_pose(p, i, p.x_m[i] + c * d.x() - s * d.y(), p.y_m[i] + s * d.x() + c * d.y(),
-               p.theta_rad[i] + d.z());
+      p.set_pose(
+          i, {p.x_m[i] + c * d.x() - s * d.y(), p.y_m[i] + s * d.x() + c * d.y(), p.theta_rad[i] + d.z()});
     }
   });
 }

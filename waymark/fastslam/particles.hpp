@@ -19,6 +19,7 @@ struct Particles {
 
   [[nodiscard]] int count() const { return static_cast<int>(weight.size()); }
   [[nodiscard]] Pose2 pose(int i) const;
+  void set_pose(std::size_t i, const Pose2& T_world_robot);
 
   AlignedArray<double> x_m;
   AlignedArray<double> y_m;

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "waymark/core/config.hpp"
+#include "waymark/core/flat_yaml.hpp"
 #include "waymark/io/files.hpp"
-#include "waymark/io/flat_yaml.hpp"
 #include "waymark/io/log_format.hpp"
 #include "waymark/io/merged_log.hpp"
 

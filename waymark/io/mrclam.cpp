@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "waymark/core/flat_yaml.hpp"
 #include "waymark/io/files.hpp"
-#include "waymark/io/flat_yaml.hpp"
 #include "waymark/io/merged_log.hpp"
 #include "waymark/io/mrclam_settings.hpp"
 #include "waymark/io/text_lines.hpp"

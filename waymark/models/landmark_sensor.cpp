@@ -22,10 +22,13 @@ std::optional<double> bearing_of(const Measurement& measurement) {
 void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.x_m", s.x_m, {-100.0, 100.0}, "landmark sensor ahead of the robot's origin, m");
   schema.real("sensor.y_m", s.y_m, {-100.0, 100.0}, "landmark sensor left of the robot's origin, m");
-  schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0}, "direction of the landmark sensor, degrees left of ahead");
+  schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0},
+              "direction of the landmark sensor, degrees left of ahead");
   schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m");
-  schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0}, "further standard deviation per metre of range");
-  schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0}, "standard deviation of a bearing, degrees");
+  schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0},
+              "further standard deviation per metre of range");
+  schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
+              "standard deviation of a bearing, degrees");
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
@@ -45,7 +48,8 @@ Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement
 bool is_usable(const LandmarkSensor& sensor, const Measurement& measurement) {
   const auto range = range_of(measurement);
   const auto bearing = bearing_of(measurement);
-  const bool range_ok = !range || (*range > 0.0 && *range >= sensor.min_range_m && *range <= sensor.max_range_m);
+  const bool range_ok =
+      !range || (*range > 0.0 && *range >= sensor.min_range_m && *range <= sensor.max_range_m);
   const bool bearing_ok = !bearing || std::isfinite(*bearing);
   return (range || bearing) && range_ok && bearing_ok;
 }

@@ -4,7 +4,8 @@
 
 namespace waymark {
 
-static_assert(ObservationModel<RangeBearingModel> && ObservationModel<RangeModel> && ObservationModel<BearingModel>);
+static_assert(ObservationModel<RangeBearingModel> && ObservationModel<RangeModel> &&
+              ObservationModel<BearingModel>);
 
 Linearization<2> RangeBearingModel::linearize(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                               const Eigen::Vector2d& p_world) {
@@ -47,7 +48,8 @@ Linearization<1> RangeModel::linearize(const Pose2& T_world_robot, const Pose2& 
   return {both.predicted.head<1>(), both.H_pose.topRows<1>(), both.H_landmark.topRows<1>()};
 }
 
-Eigen::Matrix<double, 1, 1> RangeModel::innovation(const Value& z, const Eigen::Matrix<double, 1, 1>& predicted) {
+Eigen::Matrix<double, 1, 1> RangeModel::innovation(const Value& z,
+                                                   const Eigen::Matrix<double, 1, 1>& predicted) {
   return Eigen::Matrix<double, 1, 1>(z.range_m - predicted(0));
 }
 
@@ -57,7 +59,8 @@ Linearization<1> BearingModel::linearize(const Pose2& T_world_robot, const Pose2
   return {both.predicted.tail<1>(), both.H_pose.bottomRows<1>(), both.H_landmark.bottomRows<1>()};
 }
 
-Eigen::Matrix<double, 1, 1> BearingModel::innovation(const Value& z, const Eigen::Matrix<double, 1, 1>& predicted) {
+Eigen::Matrix<double, 1, 1> BearingModel::innovation(const Value& z,
+                                                     const Eigen::Matrix<double, 1, 1>& predicted) {
   return Eigen::Matrix<double, 1, 1>(wrap_angle(z.bearing_rad - predicted(0)));
 }
 

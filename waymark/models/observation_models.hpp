@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <concepts>
+
+#include <Eigen/Core>
 
 #include "waymark/core/observation.hpp"
 #include "waymark/core/pose2.hpp"
@@ -16,13 +17,15 @@ struct Linearization {
   Eigen::Matrix<double, Dim, 2> H_landmark;  ///< dh/d(x, y) of the landmark
 };
 
-/// What a filter asks of a model of 2-D landmarks: the innovation wraps its angles, h() is defined away from the
-/// sensor's own position (callers keep `kMinDistance_m`).
+/// What a filter asks of a model of 2-D landmarks: the innovation wraps its angles, h() is defined away from
+/// the sensor's own position (callers keep `kMinDistance_m`).
 template <class M>
 concept ObservationModel = requires(const typename M::Value& z, const Pose2& T, const Eigen::Vector2d& p) {
   { M::kDim } -> std::convertible_to<int>;
   { M::linearize(T, T, p) } -> std::same_as<Linearization<M::kDim>>;
-  { M::innovation(z, Eigen::Matrix<double, M::kDim, 1>()) } -> std::same_as<Eigen::Matrix<double, M::kDim, 1>>;
+  {
+    M::innovation(z, Eigen::Matrix<double, M::kDim, 1>())
+    } -> std::same_as<Eigen::Matrix<double, M::kDim, 1>>;
 };
 
 /// Nearer to the sensor than this the direction of a landmark means nothing.
@@ -43,7 +46,8 @@ struct RangeBearingModel {
     Eigen::Matrix<double, 2, 3> G_pose;
     Eigen::Matrix2d G_measurement;
   };
-  [[nodiscard]] static Inverse locate(const Pose2& T_world_robot, const Pose2& T_robot_sensor, const Value& z);
+  [[nodiscard]] static Inverse locate(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
+                                      const Value& z);
 };
 
 /// The first row of range-bearing.
@@ -52,7 +56,8 @@ struct RangeModel {
   static constexpr int kDim = 1;
   [[nodiscard]] static Linearization<1> linearize(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                                   const Eigen::Vector2d& p_world);
-  [[nodiscard]] static Eigen::Matrix<double, 1, 1> innovation(const Value& z, const Eigen::Matrix<double, 1, 1>& predicted);
+  [[nodiscard]] static Eigen::Matrix<double, 1, 1> innovation(const Value& z,
+                                                              const Eigen::Matrix<double, 1, 1>& predicted);
 };
 
 /// The second row of range-bearing.
@@ -61,7 +66,8 @@ struct BearingModel {
   static constexpr int kDim = 1;
   [[nodiscard]] static Linearization<1> linearize(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                                   const Eigen::Vector2d& p_world);
-  [[nodiscard]] static Eigen::Matrix<double, 1, 1> innovation(const Value& z, const Eigen::Matrix<double, 1, 1>& predicted);
+  [[nodiscard]] static Eigen::Matrix<double, 1, 1> innovation(const Value& z,
+                                                              const Eigen::Matrix<double, 1, 1>& predicted);
 };
 
 }  // namespace waymark

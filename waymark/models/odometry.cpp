@@ -22,8 +22,8 @@ ArcStep scaled(ArcStep step, const OdometryOptions& options) {
   return {options.speed_scale * step.distance_m, options.turn_scale * step.turn_rad};
 }
 
-/// Slip in distance and turn goes the way of the arc itself, so that a turn error moves the end point too; lateral slip
-/// stands across the chord.
+/// Slip in distance and turn goes the way of the arc itself, so that a turn error moves the end point too;
+/// lateral slip stands across the chord.
 Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
   const double distance = std::abs(step.distance_m);
   const double turn = std::abs(step.turn_rad);
@@ -39,22 +39,32 @@ Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise,
 }  // namespace
 
 void describe(Schema& schema, OdometryOptions& o) {
-  schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0}, "radius of the left wheel, m; 0: the log says");
-  schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0}, "radius of the right wheel, m; 0: the log says");
-  schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0}, "distance between the wheels, m; 0: the log says");
-  schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0}, "error variance of each wheel per metre it rolls");
-  schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0}, "forward slip variance per metre driven");
-  schema.real("motion.lateral_var_m2_per_m", o.noise.lateral_var_m2_per_m, {0.0, 1.0}, "sideways slip variance per metre driven");
-  schema.real("motion.turn_var_rad2_per_rad", o.noise.turn_var_rad2_per_rad, {0.0, 10.0}, "turning error variance per radian turned");
-  schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0}, "turning error variance per metre driven");
+  schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0},
+              "radius of the left wheel, m; 0: the log says");
+  schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0},
+              "radius of the right wheel, m; 0: the log says");
+  schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0},
+              "distance between the wheels, m; 0: the log says");
+  schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0},
+              "error variance of each wheel per metre it rolls");
+  schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0},
+              "forward slip variance per metre driven");
+  schema.real("motion.lateral_var_m2_per_m", o.noise.lateral_var_m2_per_m, {0.0, 1.0},
+              "sideways slip variance per metre driven");
+  schema.real("motion.turn_var_rad2_per_rad", o.noise.turn_var_rad2_per_rad, {0.0, 10.0},
+              "turning error variance per radian turned");
+  schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0},
+              "turning error variance per metre driven");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
-  schema.choice("motion.arc", o.arc, {"exact", "article"}, "chord of the exact arc, or k = 1 as in the 2012 article");
+  schema.choice("motion.arc", o.arc, {"exact", "article"},
+                "chord of the exact arc, or k = 1 as in the 2012 article");
 }
 
 Result<void> check(const WheelGeometry& wheels) {
   const auto missing = [](const char* key) {
-    return Error{std::string(key) + " is not known: give it in the log's log.yaml or with --set " + key + "=..."};
+    return Error{std::string(key) + " is not known: give it in the log's log.yaml or with --set " + key +
+                 "=..."};
   };
   if (!(wheels.left_radius_m > 0.0)) return missing("wheels.left_radius_m");
   if (!(wheels.right_radius_m > 0.0)) return missing("wheels.right_radius_m");
@@ -64,7 +74,8 @@ Result<void> check(const WheelGeometry& wheels) {
 
 Pose2 arc_increment(const ArcStep& step, ArcModel model) {
   const double chord_m = step.distance_m * chord_ratio(step.turn_rad, model).value;
-  return {chord_m * std::cos(0.5 * step.turn_rad), chord_m * std::sin(0.5 * step.turn_rad), wrap_angle(step.turn_rad)};
+  return {chord_m * std::cos(0.5 * step.turn_rad), chord_m * std::sin(0.5 * step.turn_rad),
+          wrap_angle(step.turn_rad)};
 }
 
 Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
@@ -92,9 +103,12 @@ Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options
   const ArcStep step = scaled(wheel_step(increment, wheels), options);
   const Eigen::Vector2d scale(options.speed_scale, options.turn_scale);
   const Eigen::Vector2d radius_m(wheels.left_radius_m, wheels.right_radius_m);
-  const Eigen::Vector2d travel_m = radius_m.cwiseProduct(Eigen::Vector2d(increment.left_rad, increment.right_rad));
-  const Eigen::Vector2d angle_var = options.noise.wheel_var_m2_per_m * travel_m.cwiseAbs().cwiseQuotient(radius_m.cwiseAbs2());
-  const Eigen::Matrix<double, 3, 2> V = arc_jacobian(step, options.arc) * scale.asDiagonal() * wheel_jacobian(wheels);
+  const Eigen::Vector2d travel_m =
+      radius_m.cwiseProduct(Eigen::Vector2d(increment.left_rad, increment.right_rad));
+  const Eigen::Vector2d angle_var =
+      options.noise.wheel_var_m2_per_m * travel_m.cwiseAbs().cwiseQuotient(radius_m.cwiseAbs2());
+  const Eigen::Matrix<double, 3, 2> V =
+      arc_jacobian(step, options.arc) * scale.asDiagonal() * wheel_jacobian(wheels);
   const Eigen::Matrix3d Q = V * angle_var.asDiagonal() * V.transpose();
   return {arc_increment(step, options.arc), Q + slip_covariance(step, options.noise, options.arc)};
 }
@@ -104,7 +118,8 @@ Motion velocity_motion(const Velocity& velocity, double dt_s, const OdometryOpti
   return {arc_increment(step, options.arc), slip_covariance(step, options.noise, options.arc)};
 }
 
-Motion odometry_pose_motion(const Pose2& T_odom_before, const Pose2& T_odom_after, const OdometryOptions& options) {
+Motion odometry_pose_motion(const Pose2& T_odom_before, const Pose2& T_odom_after,
+                            const OdometryOptions& options) {
   const Pose2 moved = T_odom_before.inverse() * T_odom_after;
   // The noise grows with the arc, of which only the chord is known.
   const double chord_m = std::copysign(moved.position().norm(), moved.x_m);

@@ -15,17 +15,18 @@ struct WheelGeometry {
   double track_m = 0.0;
 };
 
-/// How the increments of odometry go wrong. All are variances per metre or radian travelled, so that cutting a
-/// motion into more steps changes nothing, and all vanish when the robot stands still.
+/// How the increments of odometry go wrong. All are variances per metre or radian travelled, so that cutting
+/// a motion into more steps changes nothing, and all vanish when the robot stands still.
 struct OdometryNoise {
-  double wheel_var_m2_per_m = 1e-4;      ///< each wheel's own error, per metre that the wheel rolls
-  double forward_var_m2_per_m = 1e-4;    ///< slip along the heading
-  double lateral_var_m2_per_m = 1e-5;    ///< sideways slip
-  double turn_var_rad2_per_rad = 4e-3;   ///< slip in turning
-  double turn_var_rad2_per_m = 1e-4;     ///< turning while driving straight
+  double wheel_var_m2_per_m = 1e-4;     ///< each wheel's own error, per metre that the wheel rolls
+  double forward_var_m2_per_m = 1e-4;   ///< slip along the heading
+  double lateral_var_m2_per_m = 1e-5;   ///< sideways slip
+  double turn_var_rad2_per_rad = 4e-3;  ///< slip in turning
+  double turn_var_rad2_per_m = 1e-4;    ///< turning while driving straight
 };
 
-/// Whether an increment is laid along the chord of its exact arc, or is as long as the arc (the 2012 article's k = 1).
+/// Whether an increment is laid along the chord of its exact arc, or is as long as the arc (the 2012
+/// article's k = 1).
 enum class ArcModel { kExact, kArticle };
 
 struct OdometryOptions {
@@ -47,13 +48,14 @@ struct ArcStep {
   double turn_rad = 0.0;
 };
 
-/// The increment of an arc of length ds that turns by dth, starting along +x (Vincke et al. 2012, equations 4 and 6):
-/// x = ds k cos(dth/2), y = ds k sin(dth/2), k = sin(dth/2)/(dth/2), or 1 in the article's form.
+/// The increment of an arc of length ds that turns by dth, starting along +x (Vincke et al. 2012, equations 4
+/// and 6): x = ds k cos(dth/2), y = ds k sin(dth/2), k = sin(dth/2)/(dth/2), or 1 in the article's form.
 [[nodiscard]] Pose2 arc_increment(const ArcStep& step, ArcModel model);
 /// d(x, y, theta)/d(ds, dth) of the above, 3x2.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model);
 
-/// Encoder increments to distance and turn (Vincke et al. 2012, equation 5) and its Jacobian to (left, right) angles.
+/// Encoder increments to distance and turn (Vincke et al. 2012, equation 5) and its Jacobian to (left, right)
+/// angles.
 [[nodiscard]] ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels);
 [[nodiscard]] Eigen::Matrix2d wheel_jacobian(const WheelGeometry& wheels);
 

@@ -1,10 +1,11 @@
 #include "waymark/report/metrics.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "waymark/slam/make_filter.hpp"
@@ -24,7 +25,8 @@ std::string setting(const Config& config, const char* key) {
 
 double micros(Duration d) { return 1e6 * to_seconds(d); }
 
-/// Four significant digits below a thousand are more than any of these figures deserve; NaN cannot be written.
+/// Four significant digits below a thousand are more than any of these figures deserve; NaN cannot be
+/// written.
 Json rounded(double value) {
   if (!std::isfinite(value)) return nullptr;
   const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(value), 1e-12))) - 5.0);
@@ -42,7 +44,8 @@ Json blocks_json(const Metrics& metrics) {
     blocks.push_back({{"name", row.name},
                       {"calls", row.calls},
                       {"mean_us", rounded(row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0)},
-                      {"per_frame_us", rounded(metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0)}});
+                      {"per_frame_us",
+                       rounded(metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0)}});
   }
   return blocks;
 }
@@ -83,7 +86,8 @@ Json truth_json(const eval::Evaluation& e) {
   return truth;
 }
 
-std::string line(const std::string& what, const std::optional<double>& value, const char* unit, const std::string& more = "") {
+std::string line(const std::string& what, const std::optional<double>& value, const char* unit,
+                 const std::string& more = "") {
   return value ? fmt::format("  {:<30}{:>9.3f} {}{}\n", what, *value, unit, more) : std::string();
 }
 
@@ -170,14 +174,18 @@ std::string to_json(const Metrics& m) {
   return json.dump(2) + "\n";
 }
 
-std::string truth_json_text(const eval::Evaluation& evaluation) { return truth_json(evaluation).dump(2) + "\n"; }
+std::string truth_json_text(const eval::Evaluation& evaluation) {
+  return truth_json(evaluation).dump(2) + "\n";
+}
 
 std::string to_text(const eval::Evaluation& e) {
   const auto against = [](const std::optional<double>& odometry) {
     return odometry ? fmt::format("   (odometry alone {:.3f} m)", *odometry) : std::string();
   };
-  std::string text = line("position RMSE, from start", e.path.position_rmse_m, "m", against(e.odometry.position_rmse_m));
-  text += line("position RMSE, aligned", e.path.position_rmse_aligned_m, "m", against(e.odometry.position_rmse_aligned_m));
+  std::string text =
+      line("position RMSE, from start", e.path.position_rmse_m, "m", against(e.odometry.position_rmse_m));
+  text += line("position RMSE, aligned", e.path.position_rmse_aligned_m, "m",
+               against(e.odometry.position_rmse_aligned_m));
   text += line("heading RMSE", e.path.heading_rmse_deg, "deg");
   text += line("final error", e.path.final_error_m, "m", against(e.odometry.final_error_m));
   if (e.map) {
@@ -193,8 +201,9 @@ std::string to_text(const eval::Evaluation& e) {
 }
 
 std::string to_text(const Metrics& m) {
-  std::string text = fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
-                                 m.filter, m.duration_s, m.wall_s, m.realtime_factor, m.observations, m.landmarks);
+  std::string text =
+      fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
+                  m.filter, m.duration_s, m.wall_s, m.realtime_factor, m.observations, m.landmarks);
   if (m.truth) text += to_text(*m.truth);
   text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
   text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));

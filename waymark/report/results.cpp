@@ -17,7 +17,8 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
 }
 
 Result<void> write_maps(const RunResult& result, const std::filesystem::path& folder) {
-  const Stamp stamp = result.recording.trajectory.empty() ? Stamp{} : result.recording.trajectory.back().stamp;
+  const Stamp stamp =
+      result.recording.trajectory.empty() ? Stamp{} : result.recording.trajectory.back().stamp;
   Snapshot snapshot = result.recording.filter->snapshot();
   snapshot.stamp = stamp;
   if (auto written = write_map_csv(folder / "map.csv", snapshot); !written) return written;
@@ -50,9 +51,11 @@ Result<RunResult> run_log(const std::string& input, const UserSettings& user, co
   return result;
 }
 
-Result<void> write_results(const RunResult& result, const std::filesystem::path& folder, const std::string& command) {
+Result<void> write_results(const RunResult& result, const std::filesystem::path& folder,
+                           const std::string& command) {
   if (auto made = ensure_output_folder(folder); !made) return made;
-  if (auto written = write_trajectory(folder / "trajectory.tum", result.recording.trajectory); !written) return written;
+  if (auto written = write_trajectory(folder / "trajectory.tum", result.recording.trajectory); !written)
+    return written;
   if (auto written = write_maps(result, folder); !written) return written;
   Config config = result.config;
   if (auto written = write_file(folder / "config.yaml", describe(config).to_yaml()); !written) return written;

@@ -23,9 +23,10 @@ struct RunResult {
   Metrics metrics;
 };
 
-/// Opens an input, runs the filter over it and scores the result. A log that breaks off half-way gives what was computed
-/// up to there, with `recording.error` set.
-[[nodiscard]] Result<RunResult> run_log(const std::string& input, const UserSettings& user, const TimeSpan& span = {},
+/// Opens an input, runs the filter over it and scores the result. A log that breaks off half-way gives what
+/// was computed up to there, with `recording.error` set.
+[[nodiscard]] Result<RunResult> run_log(const std::string& input, const UserSettings& user,
+                                        const TimeSpan& span = {},
                                         const std::function<bool(double)>& keep_going = {});
 
 /// Writes trajectory.tum, map.csv, map.waymark, config.yaml, metrics.json and report.html into `folder`.

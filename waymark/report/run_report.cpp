@@ -1,8 +1,8 @@
 #include "waymark/report/run_report.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "waymark/eval/align.hpp"
 #include "waymark/slam/make_filter.hpp"
@@ -38,7 +38,8 @@ Pose2 anchor_by_landmarks(const RunResult& result) {
   return eval::align_rigid(estimated, surveyed).value_or(Pose2{});
 }
 
-/// Where the run's own frame lies in the frame of the truth: start pose on true start pose, where that is known.
+/// Where the run's own frame lies in the frame of the truth: start pose on true start pose, where that is
+/// known.
 Pose2 anchor(const RunResult& result) {
   if (result.evaluation && result.evaluation->anchor) return result.evaluation->anchor->T_truth_estimate;
   return result.log.landmarks.empty() ? Pose2{} : anchor_by_landmarks(result);
@@ -87,7 +88,8 @@ std::vector<ReportedLandmark> landmarks_of(const RunResult& result) {
   for (const auto& landmark : result.recording.filter->snapshot().landmarks) {
     const Eigen::Vector2d p = T_world_run * Eigen::Vector2d(landmark.position_m.head<2>());
     const Eigen::Matrix2d P = R * landmark.covariance.topLeftCorner<2, 2>() * R.transpose();
-    landmarks.push_back({to_string(landmark.id), p.x(), p.y(), P(0, 0), P(0, 1), P(1, 1), landmark.observations});
+    landmarks.push_back(
+        {to_string(landmark.id), p.x(), p.y(), P(0, 0), P(0, 1), P(1, 1), landmark.observations});
   }
   return landmarks;
 }
@@ -137,7 +139,8 @@ std::vector<ReportedBlock> blocks_of(const Metrics& metrics) {
   std::vector<ReportedBlock> blocks;
   for (const auto& row : metrics.blocks) {
     const double total_us = micros(row.total);
-    blocks.push_back({std::string(row.name), row.calls, row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0,
+    blocks.push_back({std::string(row.name), row.calls,
+                      row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0,
                       metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0});
   }
   return blocks;
@@ -155,7 +158,8 @@ ReportData make_report(const RunResult& result, const std::string& command) {
   const Clock clock(result);
   ReportData report;
   report.title = result.log.name;
-  report.subtitle = fmt::format("{}, {:.0f} s, {} observations", result.log.format, result.metrics.duration_s, result.metrics.observations);
+  report.subtitle = fmt::format("{}, {:.0f} s, {} observations", result.log.format, result.metrics.duration_s,
+                                result.metrics.observations);
   report.version = WAYMARK_VERSION;
   report.input = result.input;
   report.truth = path_of(result.truth, clock);
@@ -183,7 +187,8 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.blocks = blocks_of(result.metrics);
   run.metrics_json = to_json(result.metrics);
   run.notes = result.recording.notes;
-  if (result.evaluation) run.notes.insert(run.notes.end(), result.evaluation->notes.begin(), result.evaluation->notes.end());
+  if (result.evaluation)
+    run.notes.insert(run.notes.end(), result.evaluation->notes.begin(), result.evaluation->notes.end());
   report.runs.push_back(std::move(run));
 }
 

@@ -24,7 +24,8 @@ Result<void> apply(Schema& schema, const LogInfo& log) {
 }
 
 Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
-  if (input.starts_with(kSimulationPrefix)) return open_simulation(input.substr(kSimulationPrefix.size()), user);
+  if (input.starts_with(kSimulationPrefix))
+    return open_simulation(input.substr(kSimulationPrefix.size()), user);
   auto config = resolve_config(user);
   if (!config) return config.error();
   return open_source(input, config->input);
@@ -35,7 +36,8 @@ Result<std::unique_ptr<Source>> open(const std::string& input, const UserSetting
 Schema describe(Config& config) {
   Schema schema;
   schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
-  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing"}, "which part of the observations is used");
+  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing"},
+                "which part of the observations is used");
   schema.choice("associate", config.associate, {"known"}, "how observations find their landmarks");
   schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
   schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
@@ -73,7 +75,8 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   auto source = open(input, user);
   if (!source) return source.error();
   Config config;
-  if (input.starts_with(kSimulationPrefix)) config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
+  if (input.starts_with(kSimulationPrefix))
+    config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
   Schema schema = describe(config);
   if (auto done = apply(schema, (*source)->info()); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();

@@ -22,7 +22,8 @@ namespace waymark {
 enum class FilterKind { kEkf, kFastSlam };
 enum class Association { kKnown };
 
-/// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the result.
+/// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the
+/// result.
 struct Config {
   FilterKind filter = FilterKind::kEkf;
   Observe observe = Observe::kRangeBearing;
@@ -54,14 +55,15 @@ struct OpenedInput {
   Config config;
 };
 
-/// Opens a log folder, a data set or `sim:SCENARIO`, and settles the config: defaults, then what the log knows about
-/// its robot, then what the user says.
+/// Opens a log folder, a data set or `sim:SCENARIO`, and settles the config: defaults, then what the log
+/// knows about its robot, then what the user says.
 [[nodiscard]] Result<OpenedInput> open_input(const std::string& input, const UserSettings& user);
 
 /// The config alone: defaults, then what the user says.
 [[nodiscard]] Result<Config> resolve_config(const UserSettings& user);
 
 /// The simulated world of a scenario, changed by the user's `sim.` keys.
-[[nodiscard]] Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, const UserSettings& user);
+[[nodiscard]] Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario,
+                                                              const UserSettings& user);
 
 }  // namespace waymark

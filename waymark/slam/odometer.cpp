@@ -6,7 +6,8 @@ namespace waymark {
 namespace {
 
 WheelAngles interpolate(const WheelAngles& a, const WheelAngles& b, double fraction) {
-  return {a.left_rad + fraction * (b.left_rad - a.left_rad), a.right_rad + fraction * (b.right_rad - a.right_rad)};
+  return {a.left_rad + fraction * (b.left_rad - a.left_rad),
+          a.right_rad + fraction * (b.right_rad - a.right_rad)};
 }
 
 template <class Value>
@@ -34,7 +35,8 @@ void SampledTrack<Value>::add(Stamp stamp, const Value& value) {
 }
 
 template <class Value>
-std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp, Value>* next, Duration max_hold) const {
+std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp, Value>* next,
+                                             Duration max_hold) const {
   if (!last_) return std::nullopt;
   if (stamp <= last_->first) return last_->second;
   if (next != nullptr && next->first > last_->first) return between(*last_, *next, stamp);
@@ -66,7 +68,8 @@ Motion Odometer::advance_wheels(Stamp stamp, const Event* next) {
   if (const auto* angles = content_of<WheelAngles>(next)) after = {next->stamp, *angles};
   const WheelAngles then = *wheels_now_;
   wheels_now_ = wheel_track_.at(stamp, after ? &*after : nullptr, max_hold_);
-  return wheel_motion({wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad}, options_);
+  return wheel_motion({wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad},
+                      options_);
 }
 
 Motion Odometer::advance_pose(Stamp stamp, const Event* next) {

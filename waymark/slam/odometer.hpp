@@ -12,27 +12,29 @@ namespace waymark {
 /// Any odometry that this program can turn into motion.
 [[nodiscard]] bool is_odometry(const EventContent& content);
 
-/// Follows a quantity that is sampled (cumulative encoder angles, a dead-reckoned pose): its value at any stamp, by
-/// interpolation up to the next sample where that is known, else at the last rate for at most `max_hold`.
+/// Follows a quantity that is sampled (cumulative encoder angles, a dead-reckoned pose): its value at any
+/// stamp, by interpolation up to the next sample where that is known, else at the last rate for at most
+/// `max_hold`.
 template <class Value>
 class SampledTrack {
  public:
   void add(Stamp stamp, const Value& value);
-  [[nodiscard]] std::optional<Value> at(Stamp stamp, const std::pair<Stamp, Value>* next, Duration max_hold) const;
+  [[nodiscard]] std::optional<Value> at(Stamp stamp, const std::pair<Stamp, Value>* next,
+                                        Duration max_hold) const;
 
  private:
   std::optional<std::pair<Stamp, Value>> before_last_;
   std::optional<std::pair<Stamp, Value>> last_;
 };
 
-/// Turns whatever kind of odometry a log has into the motion between any two stamps. The first kind that appears
-/// counts; a log with two kinds would otherwise move twice.
+/// Turns whatever kind of odometry a log has into the motion between any two stamps. The first kind that
+/// appears counts; a log with two kinds would otherwise move twice.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
 
-  /// The motion from the stamp of the last call to `stamp` >= that one. `next` is the first odometry event after
-  /// `stamp`, if it has arrived.
+  /// The motion from the stamp of the last call to `stamp` >= that one. `next` is the first odometry event
+  /// after `stamp`, if it has arrived.
   [[nodiscard]] Motion advance(Stamp stamp, const Event* next);
 
   /// A reading at the stamp that advance() just reached. False: of another kind than the first one.

@@ -11,7 +11,8 @@ namespace {
 std::optional<Measurement> part(const Measurement& value, Observe observe) {
   const auto* both = std::get_if<RangeBearing>(&value);
   switch (observe) {
-    case Observe::kRangeBearing: return both != nullptr ? std::optional(value) : std::nullopt;
+    case Observe::kRangeBearing:
+      return both != nullptr ? std::optional(value) : std::nullopt;
     case Observe::kRange:
       if (both != nullptr) return Range{both->range_m};
       return std::holds_alternative<Range>(value) ? std::optional(value) : std::nullopt;
@@ -25,7 +26,8 @@ std::optional<Measurement> part(const Measurement& value, Observe observe) {
 /// A covariance that came with range and bearing, cut down to the part that is used.
 Eigen::Matrix2d part_covariance(const Observation& observation, const Measurement& used) {
   Eigen::Matrix2d R = *observation.covariance;
-  if (std::holds_alternative<RangeBearing>(observation.value) && std::holds_alternative<Bearing>(used)) R(0, 0) = R(1, 1);
+  if (std::holds_alternative<RangeBearing>(observation.value) && std::holds_alternative<Bearing>(used))
+    R(0, 0) = R(1, 1);
   if (!std::holds_alternative<RangeBearing>(used)) R(0, 1) = R(1, 0) = R(1, 1) = 0.0;
   return R;
 }
@@ -33,8 +35,10 @@ Eigen::Matrix2d part_covariance(const Observation& observation, const Measuremen
 }  // namespace
 
 void describe(Schema& schema, PipelineOptions& options) {
-  schema.real("pipeline.reorder_window_s", options.reorder_window_s, {0.0, 60.0}, "how late an event may arrive and still be put in its place, s");
-  schema.real("pipeline.max_hold_s", options.max_hold_s, {0.0, 3600.0}, "how long the last speed is believed when odometry is missing, s");
+  schema.real("pipeline.reorder_window_s", options.reorder_window_s, {0.0, 60.0},
+              "how late an event may arrive and still be put in its place, s");
+  schema.real("pipeline.max_hold_s", options.max_hold_s, {0.0, 3600.0},
+              "how long the last speed is believed when odometry is missing, s");
 }
 
 Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
@@ -72,7 +76,8 @@ void Pipeline::insert(Event event) {
 }
 
 const Event* Pipeline::next_odometry() const {
-  const auto found = std::ranges::find_if(waiting_, [](const Event& event) { return is_odometry(event.content); });
+  const auto found =
+      std::ranges::find_if(waiting_, [](const Event& event) { return is_odometry(event.content); });
   return found == waiting_.end() ? nullptr : &*found;
 }
 
@@ -115,7 +120,8 @@ void Pipeline::collect(const Observations& observations) {
     } else if (!is_usable(sensor_, observation.value)) {
       ++counts_.unusable;
     } else {
-      const Eigen::Matrix2d R = observation.covariance ? part_covariance(observation, *used) : noise_covariance(sensor_, *used);
+      const Eigen::Matrix2d R =
+          observation.covariance ? part_covariance(observation, *used) : noise_covariance(sensor_, *used);
       batch_.push_back({observation.id, *used, R});
     }
   }

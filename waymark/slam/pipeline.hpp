@@ -34,17 +34,17 @@ struct Step {
 struct PipelineCounts {
   std::int64_t events = 0;
   std::int64_t observations = 0;
-  std::int64_t late = 0;                ///< stamped before what was already processed
-  std::int64_t unusable = 0;            ///< not finite or outside the sensor's limits
-  std::int64_t wrong_kind = 0;          ///< lacks what --observe asks for
-  std::int64_t other_odometry = 0;      ///< of a second kind
-  std::int64_t before_odometry = 0;     ///< observed before the first odometry: used, at the start pose
+  std::int64_t late = 0;             ///< stamped before what was already processed
+  std::int64_t unusable = 0;         ///< not finite or outside the sensor's limits
+  std::int64_t wrong_kind = 0;       ///< lacks what --observe asks for
+  std::int64_t other_odometry = 0;   ///< of a second kind
+  std::int64_t before_odometry = 0;  ///< observed before the first odometry: used, at the start pose
   int odometry_gaps = 0;
 };
 
-/// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed, hands all
-/// observations of one stamp to the filter as one batch, and goes on over gaps. Events may arrive late by up to the
-/// reordering window. Images and truth are not its business and are ignored.
+/// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
+/// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events may arrive
+/// late by up to the reordering window. Images and truth are not its business and are ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;

@@ -1,9 +1,9 @@
 #include "waymark/slam/recording.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
+
+#include <fmt/format.h>
 
 #include "waymark/slam/make_filter.hpp"
 
@@ -26,9 +26,12 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
 
 std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInnovation>& innovations) {
   std::vector<std::string> lines;
-  for (const Outcome outcome : {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kDuplicate, Outcome::kMapFull}) {
-    const auto count = std::ranges::count_if(innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
-    if (count > 0) lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
+  for (const Outcome outcome : {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable,
+                                Outcome::kDuplicate, Outcome::kMapFull}) {
+    const auto count = std::ranges::count_if(
+        innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
+    if (count > 0)
+      lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
   }
   return lines;
 }
@@ -39,11 +42,13 @@ void keep(Recording& recording, const Step& step) {
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
   recording.steps.push_back({step.stamp, step.cpu});
-  for (const Innovation& innovation : step.correction->innovations) recording.innovations.push_back({step.stamp, innovation});
+  for (const Innovation& innovation : step.correction->innovations)
+    recording.innovations.push_back({step.stamp, innovation});
 }
 
 /// Feeds the source's events within the span to `accept`; the reason if reading broke off.
-std::optional<Error> read_all(Source& source, const TimeSpan& span, const std::function<bool(double)>& keep_going,
+std::optional<Error> read_all(Source& source, const TimeSpan& span,
+                              const std::function<bool(double)>& keep_going,
                               const std::function<Result<void>(Event)>& accept) {
   constexpr int kEventsPerQuestion = 256;
   std::optional<Stamp> start;

@@ -41,8 +41,8 @@ struct TimeSpan {
   double to_s = 1e18;
 };
 
-/// Runs a log through the filter that `config` asks for. `keep_going` is asked now and then with the part of the log
-/// done; false stops the run, which keeps what it has.
+/// Runs a log through the filter that `config` asks for. `keep_going` is asked now and then with the part of
+/// the log done; false stops the run, which keeps what it has.
 [[nodiscard]] Result<Recording> record(Source& source, const Config& config, const TimeSpan& span = {},
                                        const std::function<bool(double)>& keep_going = {});
 

@@ -253,7 +253,7 @@ export class MapPanel {
       ctx.strokeStyle = color(i === 0 ? (path === this.truth ? "truth" : runColor(this.selected)) : "map");
       ctx.lineWidth = i === 0 ? 2.5 : 1.5;
       ctx.stroke();
-      this.paintLabel(ctx, i === 0 ? "start" : "end", px + 10, py - 9);
+      this.paintLabel(ctx, i === 0 ? "start" : "end", px + 10, i === 0 ? py - 9 : py + 17);
     });
   }
 

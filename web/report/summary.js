@@ -53,11 +53,12 @@ export function tiles(run) {
     list.push(tile("Heading RMSE", [`${format.number(truth.heading_rmse_deg)}°`],
       has(truth.nees_mean) && `pose NEES ${format.number(truth.nees_mean)}, ideal 3`));
   }
-  if (has(truth.landmark_rmse_m)) {
+  const landmark_rmse_m = truth.landmark_rmse_m ?? truth.landmark_rmse_self_m;
+  if (has(landmark_rmse_m)) {
     const lost = [[truth.landmarks_missed, "missed"], [truth.landmarks_spurious, "spurious"]]
       .filter(([value]) => has(value)).map(([value, word]) => `${format.count(value)} ${word}`).join(", ");
-    list.push(tile("Landmark RMSE", format.length(truth.landmark_rmse_m), lost,
-      { title: "Aligned with the trajectory's SE(2)" }));
+    list.push(tile("Landmark RMSE", format.length(landmark_rmse_m), lost,
+      { title: has(truth.landmark_rmse_m) ? "Moved by the SE(2) that aligns the path" : "Landmarks aligned by themselves" }));
   }
   if (has(truth.final_error_m)) {
     list.push(tile("Final error", format.length(truth.final_error_m), has(truth.path_m) && truth.path_m > 0

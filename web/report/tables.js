@@ -25,32 +25,42 @@ export function blockTable(blocks) {
 }
 
 const SHOWN_ELSEWHERE = new Set(["blocks"]);
+const isTable = (value) => Array.isArray(value) && value.length > 0 && value.every(isGroup);
 const isGroup = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
 
 function metricText(value) {
   if (Number.isInteger(value)) return format.count(value);
   if (typeof value === "number") return format.plain(value, 5);
   if (value === null || value === undefined) return "–";
-  if (Array.isArray(value)) return value.map(metricText).join(value.some(isGroup) ? "\n" : ", ");
-  if (isGroup(value)) return Object.entries(value).map(([key, entry]) => `${key} ${metricText(entry)}`).join(", ");
-  return String(value);
+  return typeof value === "object" ? JSON.stringify(value) : String(value);
+}
+
+function pairsTable(name, rows) {
+  return h("table", {}, h("caption", {}, name),
+    h("tbody", {}, rows.map(([key, value]) => h("tr", {},
+      h("th", { scope: "row" }, h("code", {}, key)), h("td", { class: "num" }, metricText(value))))));
+}
+
+function rowsTable(name, rows) {
+  const keys = [...new Set(rows.flatMap(Object.keys))];
+  return h("div", { class: "scroll" }, h("table", {}, h("caption", {}, name),
+    h("thead", {}, h("tr", {}, keys.map((key) => h("th", { class: "num" }, h("code", {}, key))))),
+    h("tbody", {}, rows.map((row) => h("tr", {}, keys.map((key) => h("td", { class: "num" }, metricText(row[key]))))))));
 }
 
 // metrics.json as it is, one table per group; keys stay as they are since scripts read them.
 export function metricsTables(metrics) {
   const entries = Object.entries(metrics).filter(([name]) => !SHOWN_ELSEWHERE.has(name));
-  const plain = entries.filter(([, value]) => !isGroup(value));
-  const groups = entries.filter(([, value]) => isGroup(value)).map(([name, value]) => [name, Object.entries(value)]);
-  const halves = plain.length > 10 ? [plain.slice(0, Math.ceil(plain.length / 2)), plain.slice(Math.ceil(plain.length / 2))]
-    : [plain];
-  const tables = [...halves.map((half, i) => [i ? "" : "run", half]), ...groups];
+  const plain = entries.filter(([, value]) => !isGroup(value) && !isTable(value));
+  const groups = entries.filter(([, value]) => isGroup(value)).map(([name, value]) =>
+    [name, Object.entries(value).filter(([, entry]) => !isTable(entry))]);
+  const lists = entries.flatMap(([name, value]) => (isGroup(value) ? Object.entries(value) : [[name, value]])
+    .filter(([, entry]) => isTable(entry)));
+  const tables = [["run", plain], ...groups];
   return panel("All metrics", { note: "As in metrics.json" },
-    h("div", { class: "metric-groups" }, tables.filter(([, rows]) => rows.length > 0).map(([name, rows]) =>
-      h("table", {},
-        h("caption", {}, name || "\u00a0"),
-        h("tbody", {}, rows.map(([key, value]) => h("tr", {},
-          h("th", { scope: "row" }, h("code", {}, key)),
-          h("td", { class: "num" }, metricText(value)))))))));
+    h("div", { class: "metric-groups" },
+      tables.filter(([, rows]) => rows.length > 0).map(([name, rows]) => pairsTable(name, rows))),
+    ...lists.map(([name, rows]) => rowsTable(name, rows)));
 }
 
 export function notesPanel(notes) {
@@ -63,7 +73,7 @@ export function reproduce(run) {
     copy.textContent = "Copied";
     setTimeout(() => { copy.textContent = "Copy"; }, 1500);
   } }, "Copy");
-  return panel("Run it again", { tools: run.command ? [copy] : [] },
+  return panel("Run it again", { tools: run.command && navigator.clipboard ? [copy] : [] },
     run.command ? h("pre", { class: "command" }, h("code", {}, run.command)) : null,
     run.config_yaml ? h("details", {}, h("summary", {}, "Configuration in force"),
       h("pre", {}, h("code", {}, run.config_yaml))) : null);

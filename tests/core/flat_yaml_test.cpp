@@ -1,4 +1,4 @@
-#include "waymark/io/flat_yaml.hpp"
+#include "waymark/core/flat_yaml.hpp"
 
 #include <gmock/gmock.h>
 

@@ -14,8 +14,8 @@ struct FlatYamlEntry {
   int line = 0;
 };
 
-/// All values in the order of the text; sections without content are left out. `name` stands for the file in
-/// errors. Lists are refused, and so is what unfolds without end.
+/// All values in the order of the text; empty sections are left out. `name` stands for the file in errors.
+/// Lists and keys without a value are refused, and so is what unfolds without end.
 [[nodiscard]] Result<std::vector<FlatYamlEntry>> flatten_yaml(const std::string& yaml,
                                                               const std::string& name);
 

@@ -1,4 +1,4 @@
-#include "waymark/io/flat_yaml.hpp"
+#include "waymark/core/flat_yaml.hpp"
 
 #include <utility>
 
@@ -32,6 +32,8 @@ class Flattener {
     const std::string key = prefix + key_node.Scalar();
     if (value.IsMap()) return add(value, key + '.');
     if (value.IsSequence()) return Error{fmt::format("{}:{}: {} cannot be a list", name_, line, key)};
+    if (value.IsNull() && !prefix.empty())
+      return Error{fmt::format("{}:{}: {} has no value", name_, line, key)};
     if (value.IsScalar()) entries.push_back({key, value.Scalar(), line});
     return {};
   }
