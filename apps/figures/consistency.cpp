@@ -1,4 +1,4 @@
-#include "consistency.hpp"
+#include "figures/consistency.hpp"
 
 #include <algorithm>
 #include <memory>

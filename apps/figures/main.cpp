@@ -15,7 +15,8 @@
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
 
-#include "consistency.hpp"
+#include "figures/compressed.hpp"
+#include "figures/consistency.hpp"
 
 namespace waymark {
 namespace {
@@ -207,6 +208,13 @@ int main(int argc, char** argv) {
   auto* study = app.add_subcommand("study", "the simulated world that serves every comparison");
   study->add_option("--seeds", study_seeds);
   study->callback([&] { status = waymark::study(study_seeds, settings); });
+  int frames = 5000;
+  int threads = 1;
+  auto* compressed =
+      app.add_subcommand("compressed", "what a step costs in a large map, and how exact it is");
+  compressed->add_option("--frames", frames);
+  compressed->add_option("--threads", threads);
+  compressed->callback([&] { status = waymark::compressed(frames, threads); });
   for (auto* command : {mrclam, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
   waymark::add_consistency(app);

@@ -7,7 +7,9 @@
 
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
+#include "support/matrix_near.hpp"
 #include "waymark/core/gaussian.hpp"
+#include "waymark/core/random.hpp"
 
 namespace waymark {
 namespace {
@@ -123,6 +125,38 @@ TEST(EkfSlam, AScanOfMoreNewLandmarksThanFitKeepsTheFirstOfThem) {
   EXPECT_EQ(correction.count(Outcome::kAdded), 3);
   EXPECT_EQ(correction.count(Outcome::kMapFull), 5);
   EXPECT_TRUE(correction.removed.empty());
+}
+
+TEST(EkfSlam, CompressedItEstimatesTheSame) {
+  EkfSlam whole({.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kNever}, {},
+                Pose2{});
+  EkfSlam compressed(
+      {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .region = 48},
+      {}, Pose2{});
+  const auto sight = [](int landmark, double range_m) {
+    return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
+                       RangeBearing{range_m, 0.04 * landmark},
+                       Eigen::Matrix2d(1e-3 * Eigen::Matrix2d::Identity())};
+  };
+  RandomStream random(6, StreamPurpose::kSimulation);
+  for (int step = 0; step < 200; ++step) {  // sweeps over 150 landmarks on a spiral, ten at a time
+    std::vector<Observation> scan;
+    for (int i = 0; i < 10; ++i) {
+      const int landmark = (4 * step + i) % 150;
+      scan.push_back(sight(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
+    }
+    for (EkfSlam* filter : {&whole, &compressed}) {
+      filter->predict({{0.0, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
+      const auto& correction = filter->correct(scan);
+      EXPECT_EQ(correction.count(Outcome::kMatched) + correction.count(Outcome::kAdded), 10) << step;
+    }
+  }
+  EXPECT_GT(compressed.state().closed_regions(), 5);
+  const MapState a = whole.save();
+  const MapState b = compressed.save();
+  EXPECT_EQ(a.ids, b.ids);
+  EXPECT_TRUE(test::matrix_near(a.landmarks, b.landmarks, 1e-9));
+  EXPECT_TRUE(test::matrix_near(a.covariance, b.covariance, 1e-9));
 }
 
 TEST(EkfSlam, ASteadyStateStepAllocatesNothing) {

@@ -40,17 +40,34 @@ void describe(Schema& schema, EkfOptions& options) {
       "ekf.evict", options.evict, {"information", "article", "none"},
       "which landmark leaves a full map: the one that told least about the pose, the one of largest I - K H "
       "as in the article, or none, so that new ones are refused");
+  schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
+                "whether a large map is updated region by region, at the cost of a small one; auto: once it "
+                "is large enough to gain");
+  schema.integer("ekf.region", options.region, {48, 20000},
+                 "landmarks in a region of a compressed map; more where so many are seen at once");
+}
+
+ekf::Compression compression(const EkfOptions& options) {
+  switch (options.compressed) {
+    case Compress::kAlways:
+      return {options.region, options.region};
+    case Compress::kNever:
+      return {options.region, options.capacity};
+    case Compress::kAuto:
+      break;
+  }
+  return {options.region, 3 * options.region};
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads)
-    : state_(2, options.capacity, options.consistency, threads),
+    : state_(2, options.capacity, options.consistency, compression(options), threads),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
       index_(static_cast<std::size_t>(options.capacity)),
       management_(options.evict, options.capacity) {
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
   removed_.reserve(static_cast<std::size_t>(options.capacity));
-  sightings_.reserve(ekf::State::kMaxSightings);
+  sightings_.reserve(ekf::CompressedState::kMaxSightings);
 }
 
 void EkfSlam::predict(const Motion& motion) {
@@ -148,7 +165,7 @@ void EkfSlam::update(std::span<const Observation> observations) {
   while (next < observations.size()) {
     const std::size_t first = next;
     sightings_.clear();
-    for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next) {
+    for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next) {
       if (innovations_[next].outcome != Outcome::kMatched) continue;
       const int landmark = *index_.find(innovations_[next].landmark);
       const auto sighting = linearize(landmark, std::get<RangeBearing>(observations[next].value),

@@ -7,16 +7,24 @@
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/ekf/compressed_state.hpp"
 #include "waymark/ekf/map_management.hpp"
-#include "waymark/ekf/state.hpp"
 
 namespace waymark {
+
+/// Whether the map outside of the robot's region is left alone for the time being.
+enum class Compress { kAuto, kAlways, kNever };
 
 struct EkfOptions {
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   int capacity = 1000;
   ekf::Eviction evict = ekf::Eviction::kInformation;
+  Compress compressed = Compress::kAuto;
+  int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };
+
+/// With kAuto a map is compressed when it is three times a region: below that it costs more than it saves.
+[[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
 void describe(Schema& schema, EkfOptions& options);
 
@@ -34,7 +42,7 @@ class EkfSlam final : public Filter {
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
 
-  [[nodiscard]] const ekf::State& state() const { return state_; }
+  [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
 
  private:
   struct Landmark {
@@ -54,7 +62,7 @@ class EkfSlam final : public Filter {
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
 
-  ekf::State state_;
+  ekf::CompressedState state_;
   Gate gate_;
   Pose2 T_robot_sensor_;
   IdIndex index_;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
+#include "waymark/ekf/turn_jacobian.hpp"
 #include "waymark/kernels/add_scaled_rows.hpp"
 #include "waymark/kernels/move_block.hpp"
 #include "waymark/kernels/symmetric_rows.hpp"
@@ -16,13 +18,6 @@ namespace {
 
 /// Below this size of the state a second thread costs more than it brings.
 constexpr std::size_t kParallelSize = 800;
-
-/// V(a): how a turn by a carries a displacement along (the left Jacobian of SO(2)).
-Eigen::Matrix2d turn_jacobian(double a) {
-  const double sine = std::abs(a) < 1e-6 ? 1.0 - a * a / 6.0 : std::sin(a) / a;
-  const double versine = std::abs(a) < 1e-6 ? 0.5 * a : (1.0 - std::cos(a)) / a;
-  return Eigen::Matrix2d{{sine, -versine}, {versine, sine}};
-}
 
 }  // namespace
 
@@ -49,10 +44,12 @@ PoseEstimate State::pose() const {
   return {{x_[0], x_[1], x_[2]}, covariance};
 }
 
-Eigen::Vector3d State::landmark(int index) const {
-  const double* p = &x_[offset(index)];
+Eigen::Vector3d State::point(const Buffer& buffer, int index) const {
+  const double* p = &buffer[offset(index)];
   return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
 }
+
+Eigen::Vector3d State::landmark(int index) const { return point(x_, index); }
 
 Eigen::Matrix3d State::landmark_covariance(int index) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -66,9 +63,7 @@ Pose2 State::linearization_pose() const {
 }
 
 Eigen::Vector3d State::linearization_landmark(int index) const {
-  if (consistency_ != Consistency::kFej) return landmark(index);
-  const double* p = &first_[offset(index)];
-  return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
+  return consistency_ == Consistency::kFej ? first_estimate(index) : landmark(index);
 }
 
 void State::set_pose(const PoseEstimate& pose) {
@@ -101,8 +96,14 @@ void State::predict(const Motion& motion) {
   x_[2] = after.theta_rad;
 }
 
-void State::join_robot_rows() {
-  if (!pending_) return;
+double State::covariance(std::size_t i, std::size_t j) const {
+  const std::size_t row = std::min(i, j);
+  const std::size_t column = std::max(i, j);
+  return P(row, column) + (row < 2 && column >= 3 ? pending_phi_[static_cast<int>(row)] * P(2, column) : 0.0);
+}
+
+Eigen::Vector2d State::join_robot_rows() {
+  if (!pending_) return Eigen::Vector2d::Zero();
   double* row_x = P_.data();
   double* row_y = &P_[ld_];
   const double* row_theta = &P_[2 * ld_];
@@ -110,8 +111,8 @@ void State::join_robot_rows() {
     row_x[j] += pending_phi_.x() * row_theta[j];
     row_y[j] += pending_phi_.y() * row_theta[j];
   }
-  pending_phi_.setZero();
   pending_ = false;
+  return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
 }
 
 /// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row
@@ -145,7 +146,7 @@ bool State::update(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (sightings.empty()) return true;
   join_robot_rows();
-  const std::size_t rows = project(sightings);
+  const std::size_t rows = rows_ = project(sightings);
   form_innovation_covariance(sightings, static_cast<int>(rows));
   if (!factorize(static_cast<int>(rows))) return false;
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
@@ -263,21 +264,39 @@ void State::correct_covariance(std::size_t rows, bool shear) {
   });
 }
 
+Gain State::gain() const {
+  const bool sheared = consistency_ == Consistency::kInvariant;
+  return {rows_,
+          ld_,
+          W_.data(),
+          static_cast<std::size_t>(S_.cols()),
+          S_.data(),
+          nu_.data(),
+          sheared ? shear_d_.data() : nullptr,
+          dx_[2]};
+}
+
 int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+  join_robot_rows();
+  const std::array<std::size_t, 3> robot{0, 1, 2};
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> G = G_pose;
+  kernels::project_rows(P_.data(), ld_, size(), robot.data(), 3, G.data(),
+                        static_cast<std::size_t>(dimension_), W_.data(), ld_);
+  return insert(position, position, W_.data(), ld_, G_pose * pose().covariance * G_pose.transpose() + noise);
+}
+
+int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+                  std::size_t ld, const Eigen::Matrix3d& covariance) {
   assert(landmarks_ < capacity_);
   join_robot_rows();
-  const std::size_t first = size();
-  const auto d = static_cast<std::size_t>(dimension_);
-  for (std::size_t a = 0; a < d; ++a) {
-    const Eigen::Vector3d g = G_pose.row(static_cast<int>(a));
-    for (std::size_t j = 0; j < first; ++j)
-      P_[j * ld_ + first + a] = g[0] * P(0, j) + g[1] * P(1, j) + g[2] * P(2, j);
-    x_[first + a] = first_[first + a] = position[static_cast<int>(a)];
+  const std::size_t n = size();
+  for (int a = 0; a < dimension_; ++a) {
+    const std::size_t at = n + static_cast<std::size_t>(a);
+    for (std::size_t j = 0; j < n; ++j) P_[j * ld_ + at] = cross[static_cast<std::size_t>(a) * ld + j];
+    for (int b = a; b < dimension_; ++b) P_[at * ld_ + n + static_cast<std::size_t>(b)] = covariance(a, b);
+    x_[at] = position[a];
+    first_[at] = first[a];
   }
-  const Eigen::Matrix3d P_new = G_pose * pose().covariance * G_pose.transpose() + noise;
-  for (std::size_t a = 0; a < d; ++a)
-    for (std::size_t b = a; b < d; ++b)
-      P_[(first + a) * ld_ + first + b] = P_new(static_cast<int>(a), static_cast<int>(b));
   return landmarks_++;
 }
 

@@ -30,6 +30,20 @@ struct Sighting {
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
 };
 
+/// What an update did, for a filter that remembers more than the state holds. Views into the state, good
+/// until it is next changed.
+struct Gain {
+  std::size_t rows;  ///< D, measurement rows
+  std::size_t ld;    ///< stride of W
+  const double* W;   ///< D x n: L^-1 H P, so that P <- P - W^T W
+  std::size_t ld_L;  ///< stride of L
+  const double* L;   ///< D x D, lower: L L^T = H P H^T + R
+  const double* nu;  ///< D: L^-1 nu, so that dx = W^T nu
+  const double*
+      shear;  ///< n: d of the invariant filter's shear P <- (I + d e_theta^T) P (I + d e_theta^T)^T, or null
+  double turn;  ///< change of heading, rad
+};
+
 /// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that
 /// writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here
 /// allocates later.
@@ -44,6 +58,7 @@ class State {
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int landmarks() const { return landmarks_; }
   [[nodiscard]] int capacity() const { return capacity_; }
+  [[nodiscard]] Consistency consistency() const { return consistency_; }
   /// Most sightings that one update() takes.
   static constexpr int kMaxSightings = 32;
 
@@ -77,8 +92,34 @@ class State {
   /// their leading `dimension()` rows count. Returns its index. The map must not be full.
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
 
+  /// Appends a landmark that was estimated elsewhere: `cross` holds its covariance with the whole state so
+  /// far, one row of n values per coordinate, `ld` apart. `first` is its first estimate. Returns its index.
+  /// The map must not be full.
+  int insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+             std::size_t ld, const Eigen::Matrix3d& covariance);
+
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);
+
+  /// Row or column of a landmark in mean and covariance.
+  [[nodiscard]] std::size_t offset(int index) const {
+    return 3 + static_cast<std::size_t>(index * dimension_);
+  }
+  /// n
+  [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
+  /// One entry of the covariance.
+  [[nodiscard]] double covariance(std::size_t i, std::size_t j) const;
+  /// First estimate of a landmark.
+  [[nodiscard]] Eigen::Vector3d first_estimate(int index) const { return point(first_, index); }
+
+  /// What the last successful update() did; nothing else may have happened since.
+  [[nodiscard]] Gain gain() const;
+
+  /// P_rm <- Phi P_rm as far as it is due. Returns phi of Phi = [I, phi; 0, 1]: zero if nothing was due.
+  /// Every operation that needs it does it by itself.
+  Eigen::Vector2d join_robot_rows();
+  /// What it would return.
+  [[nodiscard]] Eigen::Vector2d pending() const { return pending_phi_; }
 
   /// The whole mean and the whole symmetric covariance; allocates.
   [[nodiscard]] Eigen::VectorXd mean() const;
@@ -87,16 +128,12 @@ class State {
  private:
   using Buffer = AlignedArray<double>;
 
-  [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
-  [[nodiscard]] std::size_t offset(int index) const {
-    return 3 + static_cast<std::size_t>(index * dimension_);
-  }
+  [[nodiscard]] Eigen::Vector3d point(const Buffer& buffer, int index) const;
   [[nodiscard]] double P(std::size_t i, std::size_t j) const {
     return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
   }
   [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_covariance(int index) const;
 
-  void join_robot_rows();
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
   [[nodiscard]] bool factorize(int rows);
@@ -120,6 +157,7 @@ class State {
   Buffer shear_e_;  // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
   Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
+  std::size_t rows_ = 0;                                                      // D of the last update
 
   // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last
   // joined.
