@@ -20,9 +20,10 @@ Eigen::Vector3d draw_slip(const WheelOptions& wheels, const ArcStep& command, Ra
                                wheels.slip_turn_var_rad2_per_m * distance_m;
   const double forward_m = std::sqrt(wheels.slip_forward_var_m2_per_m * distance_m) * random.normal();
   const double lateral_m = std::sqrt(wheels.slip_lateral_var_m2_per_m * distance_m) * random.normal();
-  const Eigen::Vector2d moved =
-      rotation_matrix(0.5 * command.turn_rad) * Eigen::Vector2d(forward_m, lateral_m);
-  return {moved.x(), moved.y(), std::sqrt(turn_variance) * random.normal()};
+  const double turn_rad = std::sqrt(turn_variance) * random.normal();
+  const double chord_rad = 0.5 * command.turn_rad;
+  return arc_jacobian(command, ArcModel::kExact) * Eigen::Vector2d(forward_m, turn_rad) +
+         lateral_m * Eigen::Vector3d(-std::sin(chord_rad), std::cos(chord_rad), 0.0);
 }
 
 WheelGeometry geometry(const WheelOptions& wheels) {

@@ -14,8 +14,9 @@ namespace waymark::sim {
 [[nodiscard]] WheelAngles encoder_increment(const WheelOptions& wheels, const ArcStep& command,
                                             RandomStream& random);
 
-/// How far the robot slips while the wheels roll `command`: (x, y, theta) in the frame before, forward and
-/// sideways along the chord of the arc. Three normals.
+/// How far the robot slips while the wheels roll `command`: (x, y, theta) in the frame before. Slip in
+/// distance and turn goes the way of the arc, to first order, and slip sideways across its chord. Three
+/// normals.
 [[nodiscard]] Eigen::Vector3d draw_slip(const WheelOptions& wheels, const ArcStep& command,
                                         RandomStream& random);
 
