@@ -19,7 +19,7 @@ constexpr double kTolerance = 1e-13;
 
 testing::AssertionResult pose_near(const Pose2& actual, const Pose2& expected,
                                    double tolerance = kTolerance) {
-  if (!(actual.theta_rad > -kPi && actual.theta_rad <= kPi))
+  if (actual.theta_rad != wrap_angle(actual.theta_rad))
     return testing::AssertionFailure() << "heading " << actual.theta_rad << " is not wrapped";
   return matrix_near(difference(actual, expected), Eigen::Vector3d::Zero(), tolerance);
 }

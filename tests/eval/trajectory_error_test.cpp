@@ -14,7 +14,6 @@ using test::moved;
 using test::random_pose;
 using test::random_stream;
 using test::straight_path;
-using test::truth_at;
 using test::wavy_path;
 
 PosePair make_pair(const Pose2& estimate, Truth truth,

@@ -100,7 +100,7 @@ refuses 2 'observations.csv' run damaged -o partial
 refuses 2 'a-file' run log -o a-file/out
 
 # Ctrl-C in the middle: status 1, and the results so far are on disk.
-"$waymark" run sim:square -o stopped --set sim.laps=100 --set sim.sensor_rate_hz=60 --filter fastslam --particles 2000 >out.txt 2>err.txt &
+"$waymark" run sim:square -o stopped --set sim.laps=20 --set sim.sensor_rate_hz=60 --filter fastslam --particles 3000 >out.txt 2>err.txt &
 pid=$!
 sleep 5
 kill -INT "$pid"

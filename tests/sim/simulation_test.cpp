@@ -228,7 +228,7 @@ TEST(Simulation, IdealObservationsEqualTheGeometryAtTheirStamp) {
     for (const Observation& observation : seen) {
       const TrueLandmark& landmark = log.info.landmarks[static_cast<std::size_t>(observation.id->number)];
       const RangeBearing expected = sight(T_sensor_world, {landmark.x_m, landmark.y_m});
-      const RangeBearing& value = std::get<RangeBearing>(observation.value);
+      const auto& value = std::get<RangeBearing>(observation.value);
       ASSERT_NEAR(value.range_m, expected.range_m, 1e-9);
       ASSERT_NEAR(value.bearing_rad, expected.bearing_rad, 1e-9);
       ASSERT_GE(value.range_m, sensor.min_range_m);

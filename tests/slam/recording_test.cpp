@@ -19,7 +19,7 @@ class BothFilters : public testing::TestWithParam<std::string> {};
 TEST_P(BothFilters, GiveTheSameBitsForOneAndTwoThreads) {
   const std::vector<std::string> settings{"filter=" + GetParam(), "sim.laps=1", "fastslam.particles=600"};
   auto two_threads = settings;
-  two_threads.push_back("threads=2");
+  two_threads.emplace_back("threads=2");
   const auto one = record_study(settings);
   const auto two = record_study(two_threads);
   ASSERT_TRUE(one.ok() && two.ok());

@@ -46,9 +46,9 @@ template <class Number>
 std::function<bool(std::string_view)> number_setter(Number& field, Limits limits) {
   return [&field, limits](std::string_view text) {
     const auto number = parse_number<Number>(text);
-    if (!number ||
-        !(static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high))
-      return false;
+    const bool allowed =
+        number && static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high;
+    if (!allowed) return false;
     field = *number;
     return true;
   };

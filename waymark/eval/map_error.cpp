@@ -39,7 +39,7 @@ std::optional<Pose2> self_alignment(Map map, Survey survey, Matches matches) {
   std::vector<Eigen::Vector2d> from;
   std::vector<Eigen::Vector2d> to;
   for (const auto [i, j] : matches) {
-    from.push_back(map[i].position_m.head<2>());
+    from.emplace_back(map[i].position_m.head<2>());
     to.emplace_back(survey[j].x_m, survey[j].y_m);
   }
   return align_rigid(from, to);

@@ -110,7 +110,7 @@ NeesSummary summarise_nees(std::span<const ErrorSample> samples) {
   }
   summary.scored = values.size();
   if (values.empty()) return summary;
-  const double n = static_cast<double>(values.size());
+  const auto n = static_cast<double>(values.size());
   summary.mean = sum / n;
   summary.inside_95 = static_cast<double>(inside) / n;
   summary.median = median(std::move(values));

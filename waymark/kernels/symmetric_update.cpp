@@ -82,9 +82,9 @@ struct Tile {
 // The tile to the right is worked on after the other row tiles of this block: time to fetch it from L3.
 template <std::size_t kRows, std::size_t kVectors>
 HWY_INLINE void prefetch_right(const double* P, std::size_t ld) {
-  constexpr std::size_t width = kVectors * hn::MaxLanes(kTag);
+  constexpr std::size_t kWidth = kVectors * hn::MaxLanes(kTag);
   for (std::size_t r = 0; r < kRows; ++r)
-    for (std::size_t j = width; j < 2 * width; j += kBlock) hwy::Prefetch(P + r * ld + j);
+    for (std::size_t j = kWidth; j < 2 * kWidth; j += kBlock) hwy::Prefetch(P + r * ld + j);
 }
 
 template <std::size_t kRows, std::size_t kVectors>
