@@ -14,7 +14,6 @@ constinit std::atomic<std::int64_t> allocations_so_far{0};
 
 // A program's own malloc takes precedence over that of the C library, which stays reachable by these names.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 extern "C" {
 
 void* __libc_malloc(std::size_t size);
@@ -27,14 +26,14 @@ void* malloc(std::size_t size) {
   return __libc_malloc(size);
 }
 
-void* calloc(std::size_t count, std::size_t size) {
+void* calloc(std::size_t nmemb, std::size_t size) {
   allocations_so_far.fetch_add(1, std::memory_order_relaxed);
-  return __libc_calloc(count, size);
+  return __libc_calloc(nmemb, size);
 }
 
-void* realloc(void* memory, std::size_t size) {
+void* realloc(void* ptr, std::size_t size) {
   allocations_so_far.fetch_add(1, std::memory_order_relaxed);
-  return __libc_realloc(memory, size);
+  return __libc_realloc(ptr, size);
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
@@ -43,7 +42,6 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 
 }  // extern "C"
-// NOLINTEND(readability-inconsistent-declaration-parameter-name)
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 #endif

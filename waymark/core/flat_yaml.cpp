@@ -1,5 +1,7 @@
 #include "waymark/core/flat_yaml.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,8 +10,9 @@
 namespace waymark {
 namespace {
 
-// Aliases may nest a map in itself; no file that a person wrote has so many nodes.
-constexpr int kMaxNodes = 2000;
+// Aliases may nest a map in itself, or unfold without end; no file that a person wrote is so deep or long.
+constexpr std::ptrdiff_t kMaxDepth = 16;
+constexpr std::size_t kMaxEntries = 10000;
 
 class Flattener {
  public:
@@ -26,8 +29,9 @@ class Flattener {
  private:
   Result<void> add_entry(const YAML::Node& key_node, const YAML::Node& value, const std::string& prefix) {
     const int line = key_node.Mark().line + 1;
-    if (++nodes_ > kMaxNodes)
-      return Error{fmt::format("{}:{}: more than {} entries", name_, line, kMaxNodes)};
+    if (std::ranges::count(prefix, '.') > kMaxDepth || entries.size() > kMaxEntries)
+      return Error{
+          fmt::format("{}:{}: sections are nested too deep, or unfold to too many entries", name_, line)};
     if (!key_node.IsScalar()) return Error{fmt::format("{}:{}: a key must be a plain name", name_, line)};
     const std::string key = prefix + key_node.Scalar();
     if (value.IsMap()) return add(value, key + '.');
@@ -39,7 +43,6 @@ class Flattener {
   }
 
   const std::string& name_;
-  int nodes_ = 0;
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ class FunctionBlocks {
   };
 
   /// Names must outlive the table: string literals.
-  explicit FunctionBlocks(std::initializer_list<std::string_view> names) {
+  FunctionBlocks(std::initializer_list<std::string_view> names) {
     for (const auto name : names) rows_.push_back({name});
   }
 

@@ -21,9 +21,10 @@ struct Error {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : content_(std::move(value)) {}  // NOLINT(google-explicit-constructor): reads as the value
-  Result(Error error)
-      : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor): reads as the error
+  // NOLINTBEGIN(google-explicit-constructor): a return statement reads as the value, or as the error
+  Result(T value) : content_(std::move(value)) {}
+  Result(Error error) : content_(std::move(error)) {}
+  // NOLINTEND(google-explicit-constructor)
 
   [[nodiscard]] bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }

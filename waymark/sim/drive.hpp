@@ -35,7 +35,7 @@ struct Drive {
   [[nodiscard]] Stamp stamp(std::size_t step) const;
   [[nodiscard]] Stamp end() const { return stamp(steps.size()); }
   /// The true pose at any stamp from 0 to end().
-  [[nodiscard]] Pose2 at(Stamp stamp) const;
+  [[nodiscard]] Pose2 at(Stamp when) const;
 };
 
 /// Seconds that one lap takes: legs at constant speed or the largest turn rate, whichever takes longer, and
