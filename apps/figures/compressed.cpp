@@ -145,8 +145,10 @@ double pose_nees(const Pose2& truth, const PoseEstimate& pose) {
 void compare(const char* name, ekf::Consistency consistency, Compress compressed, int landmarks, int steps,
              int threads) {
   Field field(landmarks);
-  EkfSlam whole({consistency, landmarks, Compress::kNever}, {}, {}, threads);
-  EkfSlam local({consistency, landmarks, compressed}, {}, {}, threads);
+  EkfSlam whole({.consistency = consistency, .capacity = landmarks, .compressed = Compress::kNever}, {}, {},
+                threads);
+  EkfSlam local({.consistency = consistency, .capacity = landmarks, .compressed = compressed}, {}, {},
+                threads);
   double position_m = 0.0;
   double heading_rad = 0.0;
   double sigma = 0.0;  // in units of the whole filter's own uncertainty
