@@ -14,6 +14,9 @@ struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
   double y_m = 0.0;  ///< left of it
   double yaw_deg = 0.0;
+  double range_scale = 1.0;       ///< reported range of a landmark at 1 m, less the offset
+  double range_offset_m = 0.0;    ///< by how much more than that is reported
+  bool range_is_depth = false;    ///< the range is reported along the sensor's axis, as a camera sees sizes
   double range_sigma_m = 0.05;
   double range_sigma_ratio = 0.0;  ///< further range error per metre of range
   double bearing_sigma_deg = 1.0;
@@ -26,6 +29,11 @@ struct LandmarkSensor {
 };
 
 void describe(Schema& schema, LandmarkSensor& sensor);
+
+/// What was reported, freed from the sensor's known errors: range = (reported - offset) / scale, and over
+/// cos(bearing) where it is a depth. A depth beside no bearing, or 90 degrees and more off the axis, is
+/// nothing that can be used (NaN).
+[[nodiscard]] Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported);
 
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.

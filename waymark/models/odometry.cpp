@@ -57,6 +57,8 @@ void describe(Schema& schema, OdometryOptions& o) {
               "turning error variance per metre driven");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
+  schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
+              "how much later than its stamp a motion happens, s: a robot takes time to follow a command");
   schema.choice("motion.arc", o.arc, {"exact", "article"},
                 "chord of the exact arc, or k = 1 as in the 2012 article");
 }

@@ -35,6 +35,7 @@ struct OdometryOptions {
   ArcModel arc = ArcModel::kExact;
   double speed_scale = 1.0;  ///< true distance per measured distance
   double turn_scale = 1.0;   ///< true turn per measured turn
+  double response_s = 0.0;   ///< how much later than its stamp a motion happens: the stamps of commands are early
 };
 
 void describe(Schema& schema, OdometryOptions& options);
