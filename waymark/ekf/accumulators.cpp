@@ -52,17 +52,32 @@ void Accumulators::carry(const Eigen::Vector2d& displacement) {
   }
 }
 
+void Accumulators::relax_errors(int pair, double rho) {
+  double* rows = &phi_[error_offset(pair) * ld_];
+  for (std::size_t j = 0; j < n_; ++j) {
+    rows[j] *= rho;
+    rows[ld_ + j] *= rho;
+  }
+}
+
+/// out += row `row` of J phi(rows, :), run by run of neighbouring rows.
+void Accumulators::add_rows(double* out, const Touched& touched, int row) const {
+  for (std::size_t k = 0; k < touched.size();) {
+    std::size_t end = k + 1;
+    while (end < touched.size() && touched.rows[end] == touched.rows[end - 1] + 1) ++end;
+    kernels::add_scaled_rows(out, &phi_[touched.rows[k] * ld_], ld_, end - k,
+                             &touched.J(row, static_cast<Eigen::Index>(k)), n_);
+    k = end;
+  }
+}
+
 void Accumulators::project(std::span<const Sighting> sightings, const State& state) {
   double* g = G_.data();
-  const auto d = static_cast<std::size_t>(state.dimension());
   for (const Sighting& sighting : sightings) {
+    const Touched touched = state.touched(sighting);
     for (int r = 0; r < sighting.rows; ++r, g += ld_) {
-      const Eigen::Vector3d H_pose = sighting.H_pose.row(r);
-      const Eigen::Vector3d H_landmark = sighting.H_landmark.row(r);
       std::fill_n(g, n_, 0.0);
-      kernels::add_scaled_rows(g, phi_.data(), ld_, 3, H_pose.data(), n_);
-      kernels::add_scaled_rows(g, &phi_[state.offset(sighting.landmark) * ld_], ld_, d, H_landmark.data(),
-                               n_);
+      add_rows(g, touched, r);
     }
   }
 }
@@ -84,14 +99,12 @@ void Accumulators::shear_phi(const Gain& gain) {
   turn_ += gain.turn;
 }
 
-void Accumulators::append_new(int dimension, const Eigen::Matrix3d& G_pose) {
+void Accumulators::append_new(int dimension, const Eigen::Matrix3d& G_pose, const ErrorTerms& errors) {
   const std::size_t first = n_;
+  const Touched touched(G_pose.topRows(dimension), errors);
   grow(static_cast<std::size_t>(dimension));
-  for (int a = 0; a < dimension; ++a) {
-    const Eigen::Vector3d g = G_pose.row(a);
-    kernels::add_scaled_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], phi_.data(), ld_, 3,
-                             g.data(), n_);
-  }
+  for (int a = 0; a < dimension; ++a)
+    add_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], touched, a);
 }
 
 void Accumulators::append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, const Eigen::Vector3d& d) {

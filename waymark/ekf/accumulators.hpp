@@ -30,13 +30,16 @@ class Accumulators {
   /// The robot moved: what State::join_robot_rows() returned.
   void carry(const Eigen::Vector2d& displacement);
 
+  /// A pair of lasting errors drifted: State::relax_errors().
+  void relax_errors(int pair, double rho);
+
   /// Before the state's update: G <- H phi.
   void project(std::span<const Sighting> sightings, const State& state);
   /// After it.
   void absorb(const Gain& gain);
 
-  /// The state is about to add a landmark at g(pose, z) with this dg/dpose.
-  void append_new(int dimension, const Eigen::Matrix3d& G_pose);
+  /// The state is about to add a landmark at g(pose, z, errors) with these Jacobians: State::add().
+  void append_new(int dimension, const Eigen::Matrix3d& G_pose, const ErrorTerms& errors);
   /// The state is about to take in a landmark b: `B` is its column of B, n x dimension, and `d` by how much
   /// its heading column was sheared.
   void append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, const Eigen::Vector3d& d);
@@ -60,6 +63,7 @@ class Accumulators {
  private:
   using Buffer = AlignedArray<double>;
 
+  void add_rows(double* out, const Touched& touched, int row) const;
   void shear_phi(const Gain& gain);
   /// Room for `dimension` more rows and columns of zeros.
   void grow(std::size_t dimension);

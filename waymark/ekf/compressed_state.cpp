@@ -27,16 +27,24 @@ int slots_for(int capacity, const Compression& compression) {
   return never ? 0 : capacity + region_capacity(capacity, compression);
 }
 
+/// P(row, :) J^T for the robot and the errors that something depends on.
+Eigen::Vector2d correlation(const State& state, std::size_t row, const Touched& touched) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (Eigen::Index k = 0; k < touched.head; ++k)
+    sum += state.covariance(row, touched.rows[static_cast<std::size_t>(k)]) * touched.J.col(k).head<2>();
+  return sum;
+}
+
 }  // namespace
 
 CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
-                                 const Compression& compression, int threads)
+                                 const Compression& compression, int threads, int error_pairs)
     : capacity_(capacity),
       compression_{std::max(compression.region, kSmallestRegion),
                    std::max(compression.onset, kSmallestRegion)},
-      active_(dimension, region_capacity(capacity, compression_), consistency, threads),
+      active_(dimension, region_capacity(capacity, compression_), consistency, threads, error_pairs),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
-      passive_(dimension, slots_for(capacity, compression_),
+      passive_(dimension, active_.head(), slots_for(capacity, compression_),
                slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
       local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
       base_(active_.offset(active_.capacity()), dimension),
@@ -58,6 +66,11 @@ int CompressedState::limit() const {
 void CompressedState::predict(const Motion& motion) {
   active_.predict(motion);
   seen_this_step_ = 0;
+}
+
+void CompressedState::relax_errors(int pair, double rho) {
+  active_.relax_errors(pair, rho);
+  if (compressing_) since_.relax_errors(pair, rho);
 }
 
 void CompressedState::join() {
@@ -99,7 +112,7 @@ void CompressedState::work() {
 }
 
 int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose,
-                         const Eigen::Matrix3d& noise) {
+                         const Eigen::Matrix3d& noise, const ErrorTerms& errors) {
   assert(landmarks() < capacity_);
   ++seen_this_step_;
   most_seen_ = std::max(most_seen_, seen_this_step_);
@@ -108,9 +121,9 @@ int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d&
   join();
   if (compressing_) {
     passive_.clear(slot);
-    since_.append_new(dimension(), G_pose);
+    since_.append_new(dimension(), G_pose, errors);
   }
-  active_.add(position, G_pose, noise);
+  active_.add(position, G_pose, noise, errors);
   enter(slot);
   slots_.push_back(slot);
   return landmarks() - 1;
@@ -264,19 +277,27 @@ Sighting CompressedState::in_active(const Sighting& sighting) const {
 Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
   if (is_active(sighting.landmark)) return active_.innovation_covariance(in_active(sighting));
   const Recalled now = recall(slot_of(sighting.landmark));
-  Eigen::Matrix3d P_pose_landmark = Eigen::Matrix3d::Zero();
-  P_pose_landmark.leftCols(dimension()) = cross_.topRows<3>();
-  const Eigen::Matrix2d cross = sighting.H_pose * P_pose_landmark * sighting.H_landmark.transpose();
-  return sighting.H_pose * pose().covariance * sighting.H_pose.transpose() + cross + cross.transpose() +
-         sighting.H_landmark * now.covariance * sighting.H_landmark.transpose() + sighting.R;
+  const Touched head(sighting.H_pose, sighting.errors);
+  const auto H_landmark = sighting.H_landmark.leftCols(dimension());
+  Eigen::Matrix2d S = sighting.R + sighting.H_landmark * now.covariance * sighting.H_landmark.transpose();
+  for (Eigen::Index k = 0; k < head.head; ++k) {
+    const std::size_t row = head.rows[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d J = head.J.col(k).head<2>();
+    const Eigen::Matrix2d cross = J * (cross_.row(static_cast<Eigen::Index>(row)) * H_landmark.transpose());
+    S += J * correlation(active_, row, head).transpose() + cross + cross.transpose();
+  }
+  return S;
 }
 
 Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& sighting) const {
   if (is_active(sighting.landmark)) return active_.pose_correlation(in_active(sighting));
   (void)recall(slot_of(sighting.landmark));
-  Eigen::Matrix3d P_pose_landmark = Eigen::Matrix3d::Zero();
-  P_pose_landmark.leftCols(dimension()) = cross_.topRows<3>();
-  return pose().covariance * sighting.H_pose.transpose() + P_pose_landmark * sighting.H_landmark.transpose();
+  const Touched head(sighting.H_pose, sighting.errors);
+  Eigen::Matrix<double, 3, 2> C =
+      cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
+  for (int i = 0; i < 3; ++i)
+    C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
+  return C;
 }
 
 Eigen::VectorXd CompressedState::mean() const {

@@ -37,7 +37,7 @@ struct Compression {
 class CompressedState {
  public:
   CompressedState(int dimension, int capacity, Consistency consistency, const Compression& compression,
-                  int threads = 1);
+                  int threads = 1, int error_pairs = 0);
 
   [[nodiscard]] int dimension() const { return active_.dimension(); }
   [[nodiscard]] int landmarks() const { return static_cast<int>(slots_.size()); }
@@ -52,10 +52,13 @@ class CompressedState {
   [[nodiscard]] Eigen::Vector3d linearization_landmark(int index) const;
   void set_pose(const PoseEstimate& pose) { active_.set_pose(pose); }
   void predict(const Motion& motion);
+  [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }
+  void relax_errors(int pair, double rho);
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
   [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
-  int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
+  int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
+          const ErrorTerms& errors = {});
   void remove(int index);
   [[nodiscard]] Eigen::VectorXd mean() const;
   [[nodiscard]] Eigen::MatrixXd covariance() const;

@@ -59,8 +59,10 @@ ekf::Compression compression(const EkfOptions& options) {
   return {options.region, 3 * options.region};
 }
 
-EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads)
-    : state_(2, options.capacity, options.consistency, compression(options), threads),
+EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
+                 const SensorErrors& errors)
+    : errors_(errors),
+      state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
       index_(static_cast<std::size_t>(options.capacity)),
@@ -68,11 +70,15 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
   removed_.reserve(static_cast<std::size_t>(options.capacity));
   sightings_.reserve(ekf::CompressedState::kMaxSightings);
+  errors_.start(state_);
 }
 
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
-  if (!is_still(motion) && is_finite(motion)) state_.predict(motion);
+  if (!is_still(motion) && is_finite(motion)) {
+    state_.predict(motion);
+    errors_.drive(way_m(motion));
+  }
   timer.finish(kPredict);
 }
 
@@ -94,6 +100,7 @@ void EkfSlam::prepare(std::size_t count) {
   innovations_.assign(count, {});
   removed_.clear();
   management_.begin_scan();
+  errors_.begin_scan();
 }
 
 bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
@@ -114,13 +121,13 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
     innovation.outcome = Outcome::kDuplicate;
     return;
   }
+  errors_.sight(state_, innovation.landmark);
   const auto landmark = index_.find(innovation.landmark);
   if (!landmark) {
     innovation.outcome = Outcome::kAdded;  // if add() finds room
     return;
   }
-  compare(innovation,
-          linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance));
+  compare(innovation, linearize(*landmark, observation));
 }
 
 /// Gates one linearised sighting, and tells the map management how useful its landmark was.
@@ -143,19 +150,21 @@ void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>
 }
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.
-std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const RangeBearing& z,
-                                                const Eigen::Matrix2d& R) const {
+std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const Observation& observation) const {
+  const auto& z = std::get<RangeBearing>(observation.value);
   const Eigen::Vector2d p = state_.landmark(landmark).head<2>();
   const auto here = RangeBearingModel::linearize(state_.pose().T_world_robot, T_robot_sensor_, p);
   const auto jacobians = RangeBearingModel::linearize(state_.linearization_pose(), T_robot_sensor_,
                                                       state_.linearization_landmark(landmark).head<2>());
   if (!(std::min(here.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
+  const ekf::SightingError error = errors_.of(state_, *observation.id, here.predicted[0]);
   ekf::Sighting sighting;
   sighting.landmark = landmark;
-  sighting.nu = RangeBearingModel::innovation(z, here.predicted);
+  sighting.nu = RangeBearingModel::innovation(z, here.predicted + error.expected);
   sighting.H_pose = jacobians.H_pose;
   sighting.H_landmark.leftCols<2>() = jacobians.H_landmark;
-  sighting.R = R;
+  sighting.R = *observation.covariance + error.unmodelled;
+  sighting.errors = error.terms;
   return sighting;
 }
 
@@ -168,8 +177,7 @@ void EkfSlam::update(std::span<const Observation> observations) {
     for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next) {
       if (innovations_[next].outcome != Outcome::kMatched) continue;
       const int landmark = *index_.find(innovations_[next].landmark);
-      const auto sighting = linearize(landmark, std::get<RangeBearing>(observations[next].value),
-                                      *observations[next].covariance);
+      const auto sighting = linearize(landmark, observations[next]);
       if (sighting)
         sightings_.push_back(*sighting);
       else
@@ -211,15 +219,19 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
     return;
   }
   const auto& z = std::get<RangeBearing>(observation.value);
-  const auto inverse = RangeBearingModel::locate(state_.pose().T_world_robot, T_robot_sensor_, z);
+  ekf::SightingError error = errors_.of(state_, *observation.id, z.range_m);
+  const auto inverse = RangeBearingModel::locate(
+      state_.pose().T_world_robot, T_robot_sensor_,
+      {z.range_m - error.expected[0], wrap_angle(z.bearing_rad - error.expected[1])});
   const Eigen::Vector3d position(inverse.p_world.x(), inverse.p_world.y(), 0.0);
   Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
   G_pose.topRows<2>() = inverse.G_pose;
   G_pose.block<2, 1>(0, 2) = perpendicular(inverse.p_world - state_.linearization_pose().position());
+  const Eigen::Matrix2d& G = inverse.G_measurement;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise.topLeftCorner<2, 2>() =
-      inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
-  index_.assign(*observation.id, state_.add(position, G_pose, noise));
+  noise.topLeftCorner<2, 2>() = G * (*observation.covariance + error.unmodelled) * G.transpose();
+  for (ekf::ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
+  index_.assign(*observation.id, state_.add(position, G_pose, noise, error.terms));
   landmarks_.push_back({*observation.id, 1});
   management_.added();
 }

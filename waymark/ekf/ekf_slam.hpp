@@ -8,6 +8,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
+#include "waymark/ekf/lasting_errors.hpp"
 #include "waymark/ekf/map_management.hpp"
 
 namespace waymark {
@@ -33,7 +34,8 @@ void describe(Schema& schema, EkfOptions& options);
 /// when the map is full.
 class EkfSlam final : public Filter {
  public:
-  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1);
+  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1,
+          const SensorErrors& errors = {});
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -54,14 +56,14 @@ class EkfSlam final : public Filter {
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
   /// Nothing where the landmark is believed to be at the sensor itself.
-  [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const RangeBearing& z,
-                                                       const Eigen::Matrix2d& R) const;
+  [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
   void update(std::span<const Observation> observations);
   [[nodiscard]] bool make_room();
   void remove(int landmark);
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
 
+  ekf::LastingErrors errors_;
   ekf::CompressedState state_;
   Gate gate_;
   Pose2 T_robot_sensor_;

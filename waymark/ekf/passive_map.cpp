@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <numeric>
 
 #include "waymark/ekf/turn_jacobian.hpp"
 #include "waymark/kernels/add_scaled_rows.hpp"
@@ -21,14 +22,15 @@ std::size_t ceil_multiple(std::size_t value, std::size_t of) { return (value + o
 }  // namespace
 
 // The robot's rows are filled up to whole landmarks, so that none lies in two blocks of columns.
-PassiveMap::PassiveMap(int dimension, int slots, int members, bool own_thread)
+PassiveMap::PassiveMap(int dimension, std::size_t head, int slots, int members, bool own_thread)
     : dimension_(dimension),
-      robot_rows_(ceil_multiple(3, static_cast<std::size_t>(dimension))),
+      head_(head),
+      robot_rows_(ceil_multiple(head, static_cast<std::size_t>(dimension))),
       ld_(kernels::padded_stride(offset(slots))),
       P_(ld_ * ld_),
       x_(ld_),
       first_(ld_),
-      region_ld_(kernels::padded_stride(3 + static_cast<std::size_t>(dimension * members))),
+      region_ld_(kernels::padded_stride(head + static_cast<std::size_t>(dimension * members))),
       inside_(ld_),
       minus_phi_T_(region_ld_ * region_ld_),
       minus_psi_(region_ld_ * region_ld_),
@@ -61,7 +63,8 @@ void PassiveMap::clear(int slot) {
 }
 
 void PassiveMap::list_rows(std::span<const int> members, std::vector<std::size_t>& rows) const {
-  rows.assign({0, 1, 2});
+  rows.resize(head_);
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
   for (const int slot : members)
     for (std::size_t at = offset(slot); at < offset(slot + 1); ++at) rows.push_back(at);
 }

@@ -21,14 +21,16 @@ namespace waymark::ekf {
 ///   are kept for each block of rows:       P_bb -= B^T psi B
 ///
 /// What is asked for is computed on the spot where the work has not come there yet, so that nobody sees a
-/// difference. Everything is addressed by slot: a place for the robot, then one per landmark.
+/// difference. Everything is addressed by slot: a place for the robot and the
+/// lasting errors, then one per landmark.
 ///
 /// The work may be done by a second thread. All members wait for it first, so that it makes no other
 /// difference.
 class PassiveMap {
  public:
-  /// For `slots` landmarks, of which up to `members` are in a region.
-  PassiveMap(int dimension, int slots, int members, bool own_thread);
+  /// For `slots` landmarks, of which up to `members` are in a region; `head` rows of the state are none of
+  /// landmarks.
+  PassiveMap(int dimension, std::size_t head, int slots, int members, bool own_thread);
 
   /// Row of a slot's first coordinate.
   [[nodiscard]] std::size_t offset(int slot) const {
@@ -84,6 +86,7 @@ class PassiveMap {
   void write_back(std::size_t begin, std::size_t end);
 
   int dimension_;
+  std::size_t head_;
   std::size_t robot_rows_;
   int slots_ = 0;
   std::size_t ld_;

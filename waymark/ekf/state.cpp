@@ -21,10 +21,11 @@ constexpr std::size_t kParallelSize = 800;
 
 }  // namespace
 
-State::State(int dimension, int capacity, Consistency consistency, int threads)
+State::State(int dimension, int capacity, Consistency consistency, int threads, int error_pairs)
     : dimension_(dimension),
       capacity_(capacity),
       consistency_(consistency),
+      head_(error_offset(error_pairs)),
       ld_(kernels::padded_stride(offset(capacity))),
       x_(ld_),
       first_(ld_),
@@ -52,10 +53,27 @@ Eigen::Vector3d State::point(const Buffer& buffer, int index) const {
 Eigen::Vector3d State::landmark(int index) const { return point(x_, index); }
 
 Eigen::Matrix3d State::landmark_covariance(int index) const {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  covariance.topLeftCorner(dimension_, dimension_) =
-      joint_covariance(index).block(3, 3, dimension_, dimension_);
-  return covariance;
+  Eigen::Matrix3d P_landmark = Eigen::Matrix3d::Zero();
+  const std::size_t first = offset(index);
+  for (int a = 0; a < dimension_; ++a)
+    for (int b = 0; b < dimension_; ++b)
+      P_landmark(a, b) = P(first + static_cast<std::size_t>(a), first + static_cast<std::size_t>(b));
+  return P_landmark;
+}
+
+Eigen::Vector2d State::errors(int pair) const {
+  const std::size_t first = error_offset(pair);
+  return {x_[first], x_[first + 1]};
+}
+
+void State::relax_errors(int pair, double rho) {
+  const std::size_t first = error_offset(pair);
+  for (std::size_t row = first; row < first + 2; ++row) {
+    for (std::size_t i = 0; i < row; ++i) P_[i * ld_ + row] *= rho;
+    for (std::size_t j = row; j < size(); ++j) P_[row * ld_ + j] *= rho;
+    P_[row * ld_ + row] = rho * P_[row * ld_ + row] + 1.0 - rho * rho;
+    x_[row] *= rho;
+  }
 }
 
 Pose2 State::linearization_pose() const {
@@ -115,31 +133,33 @@ Eigen::Vector2d State::join_robot_rows() {
   return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
 }
 
-/// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row
-/// zero.
-Eigen::Matrix<double, 6, 6> State::joint_covariance(int index) const {
-  Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
-  const std::size_t first = offset(index);
-  const auto d = static_cast<std::size_t>(dimension_);
-  for (std::size_t i = 0; i < 3 + d; ++i)
-    for (std::size_t j = i; j < 3 + d; ++j)
-      joint(static_cast<int>(i), static_cast<int>(j)) =
-          P(i < 3 ? i : first + i - 3, j < 3 ? j : first + j - 3);
-  joint.block(0, 3, 2, dimension_) += pending_phi_ * joint.block(2, 3, 1, dimension_);
-  joint.triangularView<Eigen::StrictlyLower>() = joint.transpose();
-  return joint;
+Touched State::touched(const Sighting& sighting) const {
+  Touched t(sighting.H_pose.topRows(sighting.rows), sighting.errors, dimension_);
+  t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(sighting.rows, dimension_);
+  for (int k = 0; k < dimension_; ++k)
+    t.rows[static_cast<std::size_t>(t.head + k)] = offset(sighting.landmark) + static_cast<std::size_t>(k);
+  return t;
 }
 
 Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
-  Eigen::Matrix<double, 2, 6> H;
-  H << sighting.H_pose, sighting.H_landmark;
-  return H * joint_covariance(sighting.landmark) * H.transpose() + sighting.R;
+  const Touched t = touched(sighting);
+  Eigen::Matrix2d S = sighting.R;
+  for (Eigen::Index i = 0; i < t.J.cols(); ++i)
+    for (Eigen::Index j = 0; j < t.J.cols(); ++j)
+      S.topLeftCorner(sighting.rows, sighting.rows) +=
+          covariance(t.rows[static_cast<std::size_t>(i)], t.rows[static_cast<std::size_t>(j)]) * t.J.col(i) *
+          t.J.col(j).transpose();
+  return S;
 }
 
 Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) const {
-  Eigen::Matrix<double, 2, 6> H;
-  H << sighting.H_pose, sighting.H_landmark;
-  return joint_covariance(sighting.landmark).topRows<3>() * H.transpose();
+  const Touched t = touched(sighting);
+  Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < t.J.cols(); ++j)
+      C.row(i).head(sighting.rows) +=
+          covariance(static_cast<std::size_t>(i), t.rows[static_cast<std::size_t>(j)]) * t.J.col(j).transpose();
+  return C;
 }
 
 bool State::update(std::span<const Sighting> sightings) {
@@ -162,16 +182,10 @@ bool State::update(std::span<const Sighting> sightings) {
 /// W <- C = H P from the touched rows of P; returns the number of measurement rows.
 std::size_t State::project(std::span<const Sighting> sightings) {
   std::size_t row = 0;
-  const auto d = static_cast<std::size_t>(dimension_);
   for (const Sighting& sighting : sightings) {
-    const std::size_t first = offset(sighting.landmark);
-    const std::array<std::size_t, 6> touched{0, 1, 2, first, first + 1, first + 2};
-    Eigen::Matrix<double, 2, 6, Eigen::RowMajor> H;
-    H << sighting.H_pose, sighting.H_landmark;
-    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor, 2, 6> H_touched = H.leftCols(3 + dimension_);
+    const Touched t = touched(sighting);
     const auto rows = static_cast<std::size_t>(sighting.rows);
-    kernels::project_rows(P_.data(), ld_, size(), touched.data(), 3 + d, H_touched.data(), rows,
-                          &W_[row * ld_], ld_);
+    kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), rows, &W_[row * ld_], ld_);
     nu_.segment(static_cast<int>(row), sighting.rows) = sighting.nu.head(sighting.rows);
     row += rows;
   }
@@ -182,14 +196,12 @@ std::size_t State::project(std::span<const Sighting> sightings) {
 void State::form_innovation_covariance(std::span<const Sighting> sightings, int rows) {
   int column = 0;
   for (const Sighting& sighting : sightings) {
-    const std::size_t first = offset(sighting.landmark);
+    const Touched t = touched(sighting);
     for (int i = column; i < rows; ++i) {
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
       for (int r = 0; r < sighting.rows; ++r) {
         double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
-        for (int k = 0; k < 3; ++k) s += c[k] * sighting.H_pose(r, k);
-        for (int k = 0; k < dimension_; ++k)
-          s += c[first + static_cast<std::size_t>(k)] * sighting.H_landmark(r, k);
+        for (int k = 0; k < t.J.cols(); ++k) s += c[t.rows[static_cast<std::size_t>(k)]] * t.J(r, k);
         S_(i, column + r) = s;
       }
     }
@@ -232,6 +244,7 @@ void State::apply_invariantly(std::size_t rows) {
   };
   move(0);
   x_[2] = wrap_angle(x_[2] + turn);
+  for (std::size_t j = 3; j < head_; ++j) x_[j] += dx_[j];
   for (int i = 0; i < landmarks_; ++i) {
     move(offset(i));
     if (dimension_ == 3) x_[offset(i) + 2] += dx_[offset(i) + 2];
@@ -276,13 +289,17 @@ Gain State::gain() const {
           dx_[2]};
 }
 
-int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
+               const ErrorTerms& errors) {
   join_robot_rows();
-  const std::array<std::size_t, 3> robot{0, 1, 2};
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> G = G_pose;
-  kernels::project_rows(P_.data(), ld_, size(), robot.data(), 3, G.data(),
-                        static_cast<std::size_t>(dimension_), W_.data(), ld_);
-  return insert(position, position, W_.data(), ld_, G_pose * pose().covariance * G_pose.transpose() + noise);
+  const Touched t(G_pose.topRows(dimension_), errors);
+  kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), static_cast<std::size_t>(dimension_), W_.data(), ld_);
+  Eigen::Matrix3d covariance = noise;
+  for (int a = 0; a < dimension_; ++a)
+    for (int b = 0; b < dimension_; ++b)
+      for (int k = 0; k < t.J.cols(); ++k)
+        covariance(a, b) += W_[static_cast<std::size_t>(a) * ld_ + t.rows[static_cast<std::size_t>(k)]] * t.J(b, k);
+  return insert(position, position, W_.data(), ld_, covariance);
 }
 
 int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
@@ -314,19 +331,22 @@ void State::remove(int index) {
   --landmarks_;
 }
 
+/// Row of the i-th value of (x, y, theta, landmarks).
+std::size_t State::place(int i) const {
+  return static_cast<std::size_t>(i) + (i < 3 ? 0 : head_ - 3);
+}
+
 Eigen::VectorXd State::mean() const {
-  return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<int>(size()));
+  Eigen::VectorXd x(3 + dimension_ * landmarks_);
+  for (int i = 0; i < x.size(); ++i) x[i] = x_[place(i)];
+  return x;
 }
 
 Eigen::MatrixXd State::covariance() const {
-  const auto n = static_cast<int>(size());
+  const int n = 3 + dimension_ * landmarks_;
   Eigen::MatrixXd full(n, n);
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) full(i, j) = P(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  if (landmarks_ > 0) {
-    full.topRightCorner(2, n - 3) += pending_phi_ * full.block(2, 3, 1, n - 3);
-    full.bottomLeftCorner(n - 3, 2) = full.topRightCorner(2, n - 3).transpose();
-  }
+    for (int j = 0; j < n; ++j) full(i, j) = covariance(place(i), place(j));
   return full;
 }
 

@@ -35,6 +35,16 @@ void describe(Schema& schema, LandmarkSensor& s) {
               "further standard deviation per metre of range");
   schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
               "standard deviation of a bearing, degrees");
+  schema.real("sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
+              "standard deviation of what all ranges of a log have in common, per metre; the EKF estimates it");
+  schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
+              "the same of all bearings, degrees");
+  schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},
+              "standard deviation of what successive ranges to one landmark have in common, per metre");
+  schema.real("sensor.lasting_bearing_sigma_deg", s.errors.lasting_bearing_sigma_deg, {0.0, 90.0},
+              "the same of bearings, degrees");
+  schema.real("sensor.lasting_way_m", s.errors.lasting_way_m, {1e-3, 1e3},
+              "way after which 37 % of what successive sightings have in common are left, m");
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");

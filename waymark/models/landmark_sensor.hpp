@@ -9,6 +9,18 @@
 
 namespace waymark {
 
+/// Errors of a sensor that are not drawn anew at every sighting.
+struct SensorErrors {
+  double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
+  double shared_bearing_sigma_deg = 0.0;
+  double lasting_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
+  double lasting_bearing_sigma_deg = 0.0;
+  double lasting_way_m = 0.3;  ///< way after which 37 % of that are left
+
+  [[nodiscard]] bool shares() const { return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0; }
+  [[nodiscard]] bool lasts() const { return lasting_range_sigma_ratio > 0.0 || lasting_bearing_sigma_deg > 0.0; }
+};
+
 /// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
 struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
@@ -20,6 +32,7 @@ struct LandmarkSensor {
   double range_sigma_m = 0.05;
   double range_sigma_ratio = 0.0;  ///< further range error per metre of range
   double bearing_sigma_deg = 1.0;
+  SensorErrors errors;
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
   double field_of_view_deg = 360.0;
