@@ -21,8 +21,8 @@ using test::matrix_near;
 /// A robot that wanders along a row of landmarks and back. It sees some of the nearest ones.
 class Wanderer {
  public:
-  explicit Wanderer(int dimension, std::uint64_t seed = 7)
-      : dimension_(dimension), random_(seed, StreamPurpose::kWorld) {}
+  explicit Wanderer(int dimension, int error_pairs = 0, std::uint64_t seed = 7)
+      : dimension_(dimension), error_pairs_(error_pairs), random_(seed, StreamPurpose::kWorld) {}
 
   Motion move() {
     const Pose2 increment{random_.uniform(0.0, 0.3), random_.uniform(-0.02, 0.02),
@@ -55,6 +55,17 @@ class Wanderer {
     return G;
   }
 
+  /// Both terms of different pairs, if there are pairs.
+  ErrorTerms errors() {
+    ErrorTerms errors;
+    for (int k = 0; k < kErrorTerms && k < error_pairs_; ++k) {
+      auto& error = errors[static_cast<std::size_t>(k)];
+      error.pair = k == 0 ? 0 : 1 + static_cast<int>(random_.uniform() * (error_pairs_ - 1));
+      for (auto& entry : error.J.reshaped()) entry = 0.1 * random_.normal();
+    }
+    return errors;
+  }
+
   RandomStream& random() { return random_; }
 
  private:
@@ -67,10 +78,12 @@ class Wanderer {
     for (auto& entry : s.H_landmark.reshaped()) entry = random_.normal();
     if (dimension_ == 2) s.H_landmark.col(2).setZero();
     s.R = test::random_covariance<2>(random_, 0.05);
+    s.errors = errors();
     return s;
   }
 
   int dimension_;
+  int error_pairs_;
   RandomStream random_;
 };
 
@@ -80,20 +93,23 @@ constexpr Compression kSmallRegions{48, 48};
 struct Case {
   int dimension;
   Consistency consistency;
+  int error_pairs = 0;
 };
 
 /// The same operations on a compressed and on a whole state.
 class CompressedAgainstWhole : public testing::TestWithParam<Case> {
  protected:
   CompressedAgainstWhole()
-      : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallRegions),
-        whole_(GetParam().dimension, kCapacity, GetParam().consistency),
-        wanderer_(GetParam().dimension) {}
+      : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallRegions, 1,
+                    GetParam().error_pairs),
+        whole_(GetParam().dimension, kCapacity, GetParam().consistency, 1, GetParam().error_pairs),
+        wanderer_(GetParam().dimension, GetParam().error_pairs) {}
 
   void step(int step, double innovation = 0.05) {
     const Motion motion = wanderer_.move();
     compressed_.predict(motion);
     whole_.predict(motion);
+    if (GetParam().error_pairs > 0) relax();
     const double what = wanderer_.random().uniform();
     if (whole_.landmarks() < kCapacity && (what < 0.35 || whole_.landmarks() == 0)) return add();
     if (what > 0.97) return remove(static_cast<int>(wanderer_.random().uniform() * whole_.landmarks()));
@@ -109,11 +125,19 @@ class CompressedAgainstWhole : public testing::TestWithParam<Case> {
     ASSERT_TRUE(whole_.update(sightings));
   }
 
+  void relax() {
+    const int pair = static_cast<int>(wanderer_.random().uniform() * GetParam().error_pairs);
+    const double rho = wanderer_.random().uniform();
+    compressed_.relax_errors(pair, rho);
+    whole_.relax_errors(pair, rho);
+  }
+
   void add() {
     const Eigen::Vector3d position = wanderer_.position();
     const Eigen::Matrix3d G = wanderer_.jacobian();
     const Eigen::Matrix3d noise = test::random_covariance<3>(wanderer_.random(), 0.01);
-    ASSERT_EQ(compressed_.add(position, G, noise), whole_.add(position, G, noise));
+    const ErrorTerms errors = wanderer_.errors();
+    ASSERT_EQ(compressed_.add(position, G, noise, errors), whole_.add(position, G, noise, errors));
   }
 
   void remove(int index) {
@@ -156,7 +180,9 @@ TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManyRegions) {
 INSTANTIATE_TEST_SUITE_P(AllModes, CompressedAgainstWhole,
                          testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant},
                                          Case{2, Consistency::kFej}, Case{3, Consistency::kStandard},
-                                         Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej}));
+                                         Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej},
+                                         Case{2, Consistency::kFej, 3}, Case{3, Consistency::kStandard, 2},
+                                         Case{2, Consistency::kInvariant, 3}));
 
 /// How far the means come apart when all innovations are `scale` times as large.
 double invariant_difference(double scale) {

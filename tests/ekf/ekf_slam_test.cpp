@@ -8,6 +8,7 @@
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
+#include "waymark/core/chi2.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
 
@@ -183,6 +184,39 @@ TEST(EkfSlam, SavesTheWholeBelief) {
   EXPECT_EQ(map.landmarks.size(), 16);
   EXPECT_EQ(map.covariance, filter.state().covariance());
   EXPECT_TRUE(is_covariance(map.covariance));
+}
+
+TEST(EkfSlam, FindsItselfAgainAfterASlipThatItsOdometryDidNotSee) {
+  CircleWorld world(5);
+  EkfSlam filter = make(world);
+  drive(filter, world, 100);
+  world.move();  // of which the filter is not told
+  for (int i = 0; i < 20; ++i) world.move();
+  drive(filter, world, 30);
+  EXPECT_GT(filter.slips(), 0);
+  const auto pose = filter.pose();
+  EXPECT_LT(*mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance),
+            chi2_quantile(0.9999, 3));
+}
+
+TEST(EkfSlam, KnowsRepeatedSightingsWithALastingErrorForWhatTheyAre) {
+  // One landmark, watched from the same place: its error stays, so that after a hundred sightings it is as
+  // unsure as after one, while the innovations show how alike they are.
+  const SensorErrors errors{.lasting_range_sigma_ratio = 0.02, .lasting_bearing_sigma_deg = 1.0};
+  RandomStream random(11, StreamPurpose::kWorld);
+  EkfSlam filter({}, {}, {}, 1, errors);
+  double nis = 0.0;
+  constexpr int kSightings = 100;
+  Observation observation{LandmarkId{LandmarkId::Family::kMarker, 1}, RangeBearing{}, {}};
+  observation.covariance = Eigen::Vector2d(0.03 * 0.03, 0.005 * 0.005).asDiagonal();
+  for (int i = 0; i < kSightings; ++i) {
+    observation.value = RangeBearing{5.0 + 0.03 * random.normal(), 0.5 + 0.005 * random.normal()};
+    nis += filter.correct({&observation, 1}).innovations[0].nis / (2.0 * kSightings);
+  }
+  const Eigen::Matrix3d P = filter.snapshot().landmarks[0].covariance;
+  const double lasting = 0.1 * 0.1 + std::pow(5.0 * to_radians(1.0), 2);
+  EXPECT_NEAR(P.trace(), lasting, 0.05 * lasting);
+  EXPECT_NEAR(nis, 1.0, 0.33) << "beyond the 99.9 % band of a mean of 200 chi-square variables";
 }
 
 }  // namespace

@@ -78,6 +78,19 @@ TEST(Rectify, RefusesADepthWithoutADirectionOrBesideTheSensor) {
   EXPECT_FALSE(is_usable(sensor, rectify(sensor, RangeBearing{3.0, 0.5 * kPi + 0.01})));
 }
 
+TEST(WithWhiteErrors, CoversWhatLastsByNoise) {
+  LandmarkSensor sensor;
+  sensor.range_sigma_ratio = 0.03;
+  sensor.errors.lasting_range_sigma_ratio = 0.04;
+  sensor.bearing_sigma_deg = 3.0;
+  sensor.errors.shared_bearing_sigma_deg = 4.0;
+  const LandmarkSensor white = with_white_errors(sensor);
+  EXPECT_NEAR(white.range_sigma_ratio, 0.05, 1e-15);
+  EXPECT_NEAR(white.bearing_sigma_deg, 5.0, 1e-15);
+  EXPECT_FALSE(white.errors.lasts());
+  EXPECT_FALSE(white.errors.shares());
+}
+
 TEST(IsUsable, TakesRangesUpToTheLimitsThemselves) {
   const LandmarkSensor sensor = example_sensor();
   for (const double range_m : {0.5, 3.0, 8.0}) {

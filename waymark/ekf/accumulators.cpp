@@ -74,7 +74,7 @@ void Accumulators::add_rows(double* out, const Touched& touched, int row) const 
 void Accumulators::project(std::span<const Sighting> sightings, const State& state) {
   double* g = G_.data();
   for (const Sighting& sighting : sightings) {
-    const Touched touched = state.touched(sighting);
+    const Touched touched = state.touched(sighting, sighting.rows);
     for (int r = 0; r < sighting.rows; ++r, g += ld_) {
       std::fill_n(g, n_, 0.0);
       add_rows(g, touched, r);

@@ -293,10 +293,8 @@ Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& si
   if (is_active(sighting.landmark)) return active_.pose_correlation(in_active(sighting));
   (void)recall(slot_of(sighting.landmark));
   const Touched head(sighting.H_pose, sighting.errors);
-  Eigen::Matrix<double, 3, 2> C =
-      cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
-  for (int i = 0; i < 3; ++i)
-    C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
+  Eigen::Matrix<double, 3, 2> C = cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
+  for (int i = 0; i < 3; ++i) C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
   return C;
 }
 

@@ -12,6 +12,11 @@ namespace {
 
 enum Block : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
 
+// Gated sightings in a row that mean a lost robot, and the slip (x, y, theta) that is then tried first.
+constexpr int kMostGatedInARow = 5;
+constexpr int kMostDoublings = 8;
+const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
+
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
   const auto* z = std::get_if<RangeBearing>(&observation.value);
@@ -86,6 +91,7 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   BlockTimer timer(blocks_);
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
+  if (is_lost()) widen(observations);
   timer.finish(kAssociate);
   update(observations);
   timer.finish(kEstimate);
@@ -147,6 +153,39 @@ void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>
                         {state_.pose().covariance, state_.pose_correlation(*sighting), S, sighting->H_pose});
   else
     management_.missed(sighting->landmark);
+}
+
+/// A misread identity is an odd one out. So many gated sightings without an accepted one between them mean
+/// that not they are wrong but the pose.
+bool EkfSlam::is_lost() {
+  for (const Innovation& innovation : innovations_) {
+    if (innovation.outcome == Outcome::kMatched) gated_in_a_row_ = 0;
+    if (innovation.outcome == Outcome::kGated) ++gated_in_a_row_;
+  }
+  return gated_in_a_row_ >= kMostGatedInARow && mostly_gated();
+}
+
+bool EkfSlam::mostly_gated() const {
+  const auto count = [this](Outcome outcome) {
+    return std::ranges::count(innovations_, outcome, &Innovation::outcome);
+  };
+  return count(Outcome::kGated) > count(Outcome::kMatched);
+}
+
+/// The robot slipped as its odometry says it never does: the pose is made less sure, step by step, until most
+/// of what is seen can be believed. A filter that went on refusing would stay lost.
+void EkfSlam::widen(std::span<const Observation> observations) {
+  ++slips_;
+  gated_in_a_row_ = 0;
+  Motion slip;
+  slip.covariance = kSmallestSlip.cwiseAbs2().asDiagonal();
+  for (int doublings = 0; doublings < kMostDoublings && mostly_gated(); ++doublings) {
+    state_.predict(slip);
+    slip.covariance *= 4.0;
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (innovations_[i].outcome == Outcome::kGated)
+        compare(innovations_[i], linearize(*index_.find(innovations_[i].landmark), observations[i]));
+  }
 }
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.

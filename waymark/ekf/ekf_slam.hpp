@@ -45,6 +45,8 @@ class EkfSlam final : public Filter {
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
 
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
+  /// How often the robot must have slipped far beyond its odometry: see correct().
+  [[nodiscard]] int slips() const { return slips_; }
 
  private:
   struct Landmark {
@@ -55,6 +57,9 @@ class EkfSlam final : public Filter {
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
+  [[nodiscard]] bool is_lost();
+  [[nodiscard]] bool mostly_gated() const;
+  void widen(std::span<const Observation> observations);
   /// Nothing where the landmark is believed to be at the sensor itself.
   [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
   void update(std::span<const Observation> observations);
@@ -69,7 +74,9 @@ class EkfSlam final : public Filter {
   Pose2 T_robot_sensor_;
   IdIndex index_;
   ekf::MapManagement management_;
-  std::vector<Landmark> landmarks_;       // by index in the state
+  std::vector<Landmark> landmarks_;  // by index in the state
+  int gated_in_a_row_ = 0;
+  int slips_ = 0;
   std::vector<Innovation> innovations_;   // one per observation of the last correct()
   std::vector<ekf::Sighting> sightings_;  // of one block of the update
   std::vector<LandmarkId> removed_;       // by the last correct()

@@ -13,7 +13,7 @@ namespace waymark::ekf {
 /// What lasting errors do to one sighting z = h + e + v: e = sum of J times the pairs of the state.
 struct SightingError {
   ErrorTerms terms = {};
-  Eigen::Vector2d expected = Eigen::Vector2d::Zero();     ///< e as the state believes it
+  Eigen::Vector2d expected = Eigen::Vector2d::Zero();    ///< e as the state believes it
   Eigen::Matrix2d unmodelled = Eigen::Matrix2d::Zero();  ///< covariance of what no pair stands for
 };
 

@@ -133,32 +133,31 @@ Eigen::Vector2d State::join_robot_rows() {
   return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
 }
 
-Touched State::touched(const Sighting& sighting) const {
-  Touched t(sighting.H_pose.topRows(sighting.rows), sighting.errors, dimension_);
-  t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(sighting.rows, dimension_);
+Touched State::touched(const Sighting& sighting, int rows) const {
+  Touched t(sighting.H_pose.topRows(rows), sighting.errors, dimension_);
+  t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(rows, dimension_);
   for (int k = 0; k < dimension_; ++k)
     t.rows[static_cast<std::size_t>(t.head + k)] = offset(sighting.landmark) + static_cast<std::size_t>(k);
   return t;
 }
 
 Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
-  const Touched t = touched(sighting);
+  const Touched t = touched(sighting, 2);
   Eigen::Matrix2d S = sighting.R;
   for (Eigen::Index i = 0; i < t.J.cols(); ++i)
     for (Eigen::Index j = 0; j < t.J.cols(); ++j)
-      S.topLeftCorner(sighting.rows, sighting.rows) +=
-          covariance(t.rows[static_cast<std::size_t>(i)], t.rows[static_cast<std::size_t>(j)]) * t.J.col(i) *
-          t.J.col(j).transpose();
+      S += covariance(t.rows[static_cast<std::size_t>(i)], t.rows[static_cast<std::size_t>(j)]) * t.J.col(i) *
+           t.J.col(j).transpose();
   return S;
 }
 
 Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) const {
-  const Touched t = touched(sighting);
+  const Touched t = touched(sighting, 2);
   Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
   for (int i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < t.J.cols(); ++j)
-      C.row(i).head(sighting.rows) +=
-          covariance(static_cast<std::size_t>(i), t.rows[static_cast<std::size_t>(j)]) * t.J.col(j).transpose();
+      C.row(i) += covariance(static_cast<std::size_t>(i), t.rows[static_cast<std::size_t>(j)]) *
+                  t.J.col(j).transpose();
   return C;
 }
 
@@ -183,9 +182,10 @@ bool State::update(std::span<const Sighting> sightings) {
 std::size_t State::project(std::span<const Sighting> sightings) {
   std::size_t row = 0;
   for (const Sighting& sighting : sightings) {
-    const Touched t = touched(sighting);
+    const Touched t = touched(sighting, sighting.rows);
     const auto rows = static_cast<std::size_t>(sighting.rows);
-    kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), rows, &W_[row * ld_], ld_);
+    kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), rows, &W_[row * ld_],
+                          ld_);
     nu_.segment(static_cast<int>(row), sighting.rows) = sighting.nu.head(sighting.rows);
     row += rows;
   }
@@ -196,7 +196,7 @@ std::size_t State::project(std::span<const Sighting> sightings) {
 void State::form_innovation_covariance(std::span<const Sighting> sightings, int rows) {
   int column = 0;
   for (const Sighting& sighting : sightings) {
-    const Touched t = touched(sighting);
+    const Touched t = touched(sighting, sighting.rows);
     for (int i = column; i < rows; ++i) {
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
       for (int r = 0; r < sighting.rows; ++r) {
@@ -293,12 +293,14 @@ int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, c
                const ErrorTerms& errors) {
   join_robot_rows();
   const Touched t(G_pose.topRows(dimension_), errors);
-  kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), static_cast<std::size_t>(dimension_), W_.data(), ld_);
+  kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(),
+                        static_cast<std::size_t>(dimension_), W_.data(), ld_);
   Eigen::Matrix3d covariance = noise;
   for (int a = 0; a < dimension_; ++a)
     for (int b = 0; b < dimension_; ++b)
       for (int k = 0; k < t.J.cols(); ++k)
-        covariance(a, b) += W_[static_cast<std::size_t>(a) * ld_ + t.rows[static_cast<std::size_t>(k)]] * t.J(b, k);
+        covariance(a, b) +=
+            W_[static_cast<std::size_t>(a) * ld_ + t.rows[static_cast<std::size_t>(k)]] * t.J(b, k);
   return insert(position, position, W_.data(), ld_, covariance);
 }
 
@@ -332,9 +334,7 @@ void State::remove(int index) {
 }
 
 /// Row of the i-th value of (x, y, theta, landmarks).
-std::size_t State::place(int i) const {
-  return static_cast<std::size_t>(i) + (i < 3 ? 0 : head_ - 3);
-}
+std::size_t State::place(int i) const { return static_cast<std::size_t>(i) + (i < 3 ? 0 : head_ - 3); }
 
 Eigen::VectorXd State::mean() const {
   Eigen::VectorXd x(3 + dimension_ * landmarks_);

@@ -86,7 +86,8 @@ class State {
 
   /// Expected values of a pair of lasting errors; zero at first, and certainly so.
   [[nodiscard]] Eigen::Vector2d errors(int pair) const;
-  /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance. O(n).
+  /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance.
+  /// O(n).
   void relax_errors(int pair, double rho);
 
   /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
@@ -121,8 +122,8 @@ class State {
   }
   /// Rows before the first landmark: the robot's and those of the lasting errors.
   [[nodiscard]] std::size_t head() const { return head_; }
-  /// The rows that a sighting depends on.
-  [[nodiscard]] Touched touched(const Sighting& sighting) const;
+  /// The rows of the state that the first `rows` rows of a sighting depend on.
+  [[nodiscard]] Touched touched(const Sighting& sighting, int rows) const;
   /// n
   [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
   /// One entry of the covariance.

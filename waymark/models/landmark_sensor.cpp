@@ -35,8 +35,9 @@ void describe(Schema& schema, LandmarkSensor& s) {
               "further standard deviation per metre of range");
   schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
               "standard deviation of a bearing, degrees");
-  schema.real("sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
-              "standard deviation of what all ranges of a log have in common, per metre; the EKF estimates it");
+  schema.real(
+      "sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
+      "standard deviation of what all ranges of a log have in common, per metre; the EKF estimates it");
   schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
               "the same of all bearings, degrees");
   schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},
@@ -61,6 +62,16 @@ Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported) {
   }
   if (const auto bearing = bearing_of(reported)) return RangeBearing{range_m, *bearing};
   return Range{range_m};
+}
+
+LandmarkSensor with_white_errors(LandmarkSensor sensor) {
+  const SensorErrors& e = sensor.errors;
+  sensor.range_sigma_ratio =
+      std::hypot(sensor.range_sigma_ratio, e.shared_range_sigma_ratio, e.lasting_range_sigma_ratio);
+  sensor.bearing_sigma_deg =
+      std::hypot(sensor.bearing_sigma_deg, e.shared_bearing_sigma_deg, e.lasting_bearing_sigma_deg);
+  sensor.errors = {};
+  return sensor;
 }
 
 Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement) {

@@ -17,8 +17,12 @@ struct SensorErrors {
   double lasting_bearing_sigma_deg = 0.0;
   double lasting_way_m = 0.3;  ///< way after which 37 % of that are left
 
-  [[nodiscard]] bool shares() const { return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0; }
-  [[nodiscard]] bool lasts() const { return lasting_range_sigma_ratio > 0.0 || lasting_bearing_sigma_deg > 0.0; }
+  [[nodiscard]] bool shares() const {
+    return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0;
+  }
+  [[nodiscard]] bool lasts() const {
+    return lasting_range_sigma_ratio > 0.0 || lasting_bearing_sigma_deg > 0.0;
+  }
 };
 
 /// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
@@ -26,9 +30,9 @@ struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
   double y_m = 0.0;  ///< left of it
   double yaw_deg = 0.0;
-  double range_scale = 1.0;       ///< reported range of a landmark at 1 m, less the offset
-  double range_offset_m = 0.0;    ///< by how much more than that is reported
-  bool range_is_depth = false;    ///< the range is reported along the sensor's axis, as a camera sees sizes
+  double range_scale = 1.0;     ///< reported range of a landmark at 1 m, less the offset
+  double range_offset_m = 0.0;  ///< by how much more than that is reported
+  bool range_is_depth = false;  ///< the range is reported along the sensor's axis, as a camera sees sizes
   double range_sigma_m = 0.05;
   double range_sigma_ratio = 0.0;  ///< further range error per metre of range
   double bearing_sigma_deg = 1.0;
@@ -47,6 +51,9 @@ void describe(Schema& schema, LandmarkSensor& sensor);
 /// cos(bearing) where it is a depth. A depth beside no bearing, or 90 degrees and more off the axis, is
 /// nothing that can be used (NaN).
 [[nodiscard]] Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported);
+
+/// The same sensor for a filter that knows white noise alone: its noise covers its other errors too.
+[[nodiscard]] LandmarkSensor with_white_errors(LandmarkSensor sensor);
 
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.
