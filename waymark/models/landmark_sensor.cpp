@@ -33,6 +33,18 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
   schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0}, "how much later than the sighting its stamp is, s");
+  schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "measured range per distance");
+  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
+              "what is measured at no distance, m");
+}
+
+Measurement calibrated(const LandmarkSensor& sensor, Measurement measurement) {
+  const auto distance_m = [&sensor](double range_m) {
+    return (range_m - sensor.range_offset_m) / sensor.range_scale;
+  };
+  if (auto* z = std::get_if<RangeBearing>(&measurement)) z->range_m = distance_m(z->range_m);
+  if (auto* z = std::get_if<Range>(&measurement)) z->range_m = distance_m(z->range_m);
+  return measurement;
 }
 
 Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement) {

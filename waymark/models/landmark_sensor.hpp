@@ -20,12 +20,17 @@ struct LandmarkSensor {
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
   double field_of_view_deg = 360.0;
-  double delay_s = 0.0;  ///< how much later than the sighting its stamp is
+  double delay_s = 0.0;      ///< how much later than the sighting its stamp is
+  double range_scale = 1.0;  ///< it measures range_scale * distance + range_offset_m
+  double range_offset_m = 0.0;
 
   [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
 };
 
 void describe(Schema& schema, LandmarkSensor& sensor);
+
+/// The measurement with its range as the distance that the sensor's scale and offset make it.
+[[nodiscard]] Measurement calibrated(const LandmarkSensor& sensor, Measurement measurement);
 
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.

@@ -114,10 +114,11 @@ void Pipeline::collect(const Observations& observations) {
   for (const Observation& observation : observations) {
     ++counts_.observations;
     counts_.before_odometry += odometry_seen_ ? 0 : 1;
-    const auto used = part(observation.value, observe_);
+    const Measurement value = calibrated(sensor_, observation.value);
+    const auto used = part(value, observe_);
     if (!used) {
       ++counts_.wrong_kind;
-    } else if (!is_usable(sensor_, observation.value)) {
+    } else if (!is_usable(sensor_, value)) {
       ++counts_.unusable;
     } else {
       const Eigen::Matrix2d R =
