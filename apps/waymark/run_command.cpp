@@ -84,7 +84,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run LOG -o out\n"
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
-      "Writes trajectory.tum, map.csv, map.waymark, config.yaml, metrics.json and report.html.");
+      "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
+      "report.html.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 
