@@ -24,6 +24,9 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.y_m", s.y_m, {-100.0, 100.0}, "landmark sensor left of the robot's origin, m");
   schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0},
               "direction of the landmark sensor, degrees left of ahead");
+  schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "reported range per metre of true range");
+  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
+              "by how much more than that is reported, m");
   schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m");
   schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0},
               "further standard deviation per metre of range");
@@ -33,18 +36,14 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
   schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0}, "how much later than the sighting its stamp is, s");
-  schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "measured range per distance");
-  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
-              "what is measured at no distance, m");
 }
 
-Measurement calibrated(const LandmarkSensor& sensor, Measurement measurement) {
-  const auto distance_m = [&sensor](double range_m) {
-    return (range_m - sensor.range_offset_m) / sensor.range_scale;
-  };
-  if (auto* z = std::get_if<RangeBearing>(&measurement)) z->range_m = distance_m(z->range_m);
-  if (auto* z = std::get_if<Range>(&measurement)) z->range_m = distance_m(z->range_m);
-  return measurement;
+Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported) {
+  const auto range = range_of(reported);
+  if (!range) return reported;
+  const double range_m = (*range - sensor.range_offset_m) / sensor.range_scale;
+  if (const auto bearing = bearing_of(reported)) return RangeBearing{range_m, *bearing};
+  return Range{range_m};
 }
 
 Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement) {

@@ -14,23 +14,23 @@ struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
   double y_m = 0.0;  ///< left of it
   double yaw_deg = 0.0;
+  double range_scale = 1.0;     ///< reported range of a landmark at 1 m, less the offset
+  double range_offset_m = 0.0;  ///< by how much more than that is reported
   double range_sigma_m = 0.05;
   double range_sigma_ratio = 0.0;  ///< further range error per metre of range
   double bearing_sigma_deg = 1.0;
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
   double field_of_view_deg = 360.0;
-  double delay_s = 0.0;      ///< how much later than the sighting its stamp is
-  double range_scale = 1.0;  ///< it measures range_scale * distance + range_offset_m
-  double range_offset_m = 0.0;
+  double delay_s = 0.0;  ///< how much later than the sighting its stamp is
 
   [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
 };
 
 void describe(Schema& schema, LandmarkSensor& sensor);
 
-/// The measurement with its range as the distance that the sensor's scale and offset make it.
-[[nodiscard]] Measurement calibrated(const LandmarkSensor& sensor, Measurement measurement);
+/// What was reported, freed from the sensor's known errors: range = (reported - offset) / scale.
+[[nodiscard]] Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported);
 
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.

@@ -114,7 +114,7 @@ void Pipeline::collect(const Observations& observations) {
   for (const Observation& observation : observations) {
     ++counts_.observations;
     counts_.before_odometry += odometry_seen_ ? 0 : 1;
-    const Measurement value = calibrated(sensor_, observation.value);
+    const Measurement value = rectify(sensor_, observation.value);
     const auto used = part(value, observe_);
     if (!used) {
       ++counts_.wrong_kind;
