@@ -33,6 +33,18 @@ TEST(LandmarkSensor, SitsWhereItsMountSays) {
   EXPECT_EQ(sensor.T_robot_sensor(), (Pose2{0.2, -0.1, 0.5 * kPi}));
 }
 
+TEST(LandmarkSensor, ScaleAndOffsetGiveTheDistanceBack) {
+  LandmarkSensor sensor;
+  sensor.range_scale = 1.07;
+  sensor.range_offset_m = 0.2;
+  const auto range = std::get<Range>(rectify(sensor, Range{1.07 * 5.0 + 0.2}));
+  EXPECT_NEAR(range.range_m, 5.0, 1e-12);
+  const auto both = std::get<RangeBearing>(rectify(sensor, RangeBearing{1.07 * 3.0 + 0.2, 0.5}));
+  EXPECT_NEAR(both.range_m, 3.0, 1e-12);
+  EXPECT_EQ(both.bearing_rad, 0.5);
+  EXPECT_EQ(std::get<Bearing>(rectify(sensor, Bearing{0.5})).bearing_rad, 0.5);
+}
+
 TEST(NoiseCovariance, GrowsWithRangeAndFollowsTheLayoutOfObservations) {
   const LandmarkSensor sensor = example_sensor();
   const double range_var = 0.2 * 0.2;  // 0.1 + 0.02 * 5

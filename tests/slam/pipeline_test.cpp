@@ -126,6 +126,16 @@ TEST(Pipeline, UsesThePartThatIsAskedFor) {
   EXPECT_EQ(f.pipeline.counts().wrong_kind, 1);
 }
 
+TEST(Pipeline, HandsOnDistancesInsteadOfRanges) {
+  LandmarkSensor sensor;
+  sensor.range_scale = 1.1;
+  sensor.range_offset_m = 0.5;
+  Fixture f({}, sensor, Observe::kRange);
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1, Range{1.1 * 4.0 + 0.5})})});
+  ASSERT_EQ(f.filter.batches.size(), 1U);
+  EXPECT_NEAR(std::get<Range>(f.filter.batches[0][0].value).range_m, 4.0, 1e-12);
+}
+
 TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {
   LandmarkSensor sensor;
   sensor.max_range_m = 5.0;
