@@ -93,12 +93,9 @@ HWY_INLINE void update_tile(const Update& u, std::size_t i, std::size_t j) {
   Tile<kRows, kVectors> tile;
   tile.clear();
   prefetch_right<kRows, kVectors>(P, u.ld);
-  // The row tiles of a block share out the fetching of the next panel of B: one vector of each row of B.
-  const std::size_t next = (kVectors + i / kTileRows % kTileVectors) * hn::Lanes(kTag);
   const double* A = u.A;
   const double* B = u.B;
   for (std::size_t k = 0; k < u.D; ++k, A += u.lda, B += u.ldb) {
-    hwy::Prefetch(B + j + next);
     tile.template add_outer<true>(A + i, B + j);
   }
   if (u.d != nullptr) {

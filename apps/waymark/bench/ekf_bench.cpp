@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
@@ -24,11 +25,12 @@ constexpr std::size_t kRounds = 7;
 struct Size {
   int landmarks;
   std::size_t steps_per_round;
-  bool textbook;  ///< O(n^3): only where it ends soon
-  bool threads;   ///< large enough for a second thread
+  bool textbook;    ///< O(n^3): only where it ends soon
+  bool threads;     ///< large enough for a second thread
+  bool compressed;  ///< large enough for a region of its own
 };
-constexpr std::array kSizes{Size{50, 200, true, false}, Size{200, 100, false, false},
-                            Size{1000, 20, false, true}, Size{2000, 8, false, true}};
+constexpr std::array kSizes{Size{50, 200, true, false, false}, Size{200, 100, false, false, true},
+                            Size{1000, 20, false, true, true}, Size{2000, 8, false, true, true}};
 
 Duration wall_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -53,8 +55,10 @@ struct Contender {
   [[nodiscard]] BenchResult result() const { return {name, params, *eval::median(rounds_ms), "ms"}; }
 };
 
-std::shared_ptr<EkfSlam> start_filter(const SyntheticRun& run, ekf::Consistency mode, int threads) {
-  const EkfOptions options{mode, static_cast<int>(run.first_look.size())};
+std::shared_ptr<EkfSlam> start_filter(const SyntheticRun& run, ekf::Consistency mode, int threads = 1,
+                                      Compress compressed = Compress::kNever) {
+  const EkfOptions options{
+      .consistency = mode, .capacity = static_cast<int>(run.first_look.size()), .compressed = compressed};
   auto filter = std::make_shared<EkfSlam>(options, GateOptions{}, Pose2{}, threads);
   filter->predict(run.start);
   filter->correct(run.first_look);
@@ -110,7 +114,7 @@ class SizeBench {
                                 static_cast<int>(kRounds * size.steps_per_round))) {}
 
   std::vector<BenchResult> measure(const BenchProgress& progress) {
-    const auto invariant = start_filter(run_, ekf::Consistency::kInvariant, 1);
+    const auto invariant = start_filter(run_, ekf::Consistency::kInvariant);
     contend(invariant);
     const FunctionBlocks start = invariant->blocks();
     for (std::size_t round = 0; round < kRounds; ++round) {
@@ -129,8 +133,13 @@ class SizeBench {
   /// The invariant filter first: the others are compared with it.
   void contend(const std::shared_ptr<EkfSlam>& invariant) {
     contenders_.push_back(ours("ekf.step", with(params_, "mode", "invariant"), invariant));
-    contenders_.push_back(ours("ekf.step", with(params_, "mode", "standard"),
-                               start_filter(run_, ekf::Consistency::kStandard, 1)));
+    contenders_.push_back(
+        ours("ekf.step", with(params_, "mode", "standard"), start_filter(run_, ekf::Consistency::kStandard)));
+    for (const auto& [name, mode] : {std::pair{"compressed invariant", ekf::Consistency::kInvariant},
+                                     std::pair{"compressed standard", ekf::Consistency::kStandard}})
+      if (size_.compressed)
+        contenders_.push_back(
+            ours("ekf.step", with(params_, "mode", name), start_filter(run_, mode, 1, Compress::kAlways)));
     contenders_.push_back(plain("ekf.plain_rank_update", params_, PlainEkf::Form::kRankUpdate, run_));
     if (size_.textbook)
       contenders_.push_back(plain("ekf.plain_textbook", params_, PlainEkf::Form::kTextbook, run_));
