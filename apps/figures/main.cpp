@@ -15,6 +15,9 @@
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
 
+#include "figures/compressed.hpp"
+#include "figures/consistency.hpp"
+
 namespace waymark {
 namespace {
 
@@ -68,26 +71,53 @@ void print(const std::string& name, const Score& s) {
              s.map_m, s.nees, s.nis_per_dof);
 }
 
-/// One filter on several robots of an MRCLAM directory; FastSLAM as the median over seeds.
+void print_head(const char* rows) {
+  fmt::print("{:<10}{:>10}{:>10}{:>10}{:>12}{:>10}\n", rows, "anchored", "aligned", "map self", "NEES median",
+             "NIS/dof");
+}
+
+/// One filter over one log; FastSLAM as the median over seeds. Nothing where a run has no result.
+std::optional<Score> score_filter(const std::string& input, const std::string& filter, int seeds,
+                                  const std::vector<std::string>& extra) {
+  std::vector<Score> scores;
+  for (int seed = 1; seed <= (filter == "ekf" ? 1 : seeds); ++seed) {
+    std::vector<std::string> settings{"filter=" + filter, fmt::format("seed={}", seed),
+                                      "fastslam.particles=100"};
+    settings.insert(settings.end(), extra.begin(), extra.end());
+    const auto result = run(input, std::move(settings));
+    if (!result || !result->evaluation) return std::nullopt;
+    scores.push_back(score(*result));
+  }
+  return combine(scores, median);
+}
+
+/// One filter on several robots of an MRCLAM directory.
 int mrclam(const std::string& folder, int robots, const std::string& filter, int seeds,
-           std::vector<std::string> extra) {
-  fmt::print("{} on {}: RMSE in m\n{:<10}{:>10}{:>10}{:>10}{:>12}{:>10}\n", filter, folder, "robot",
-             "anchored", "aligned", "map self", "NEES median", "NIS/dof");
+           const std::vector<std::string>& extra) {
+  fmt::print("{} on {}: RMSE in m\n", filter, folder);
+  print_head("robot");
   std::vector<Score> robots_scores;
   for (int robot = 1; robot <= robots; ++robot) {
-    std::vector<Score> scores;
-    for (int seed = 1; seed <= seeds; ++seed) {
-      std::vector<std::string> settings{"filter=" + filter, fmt::format("input.robot={}", robot),
-                                        fmt::format("seed={}", seed), "fastslam.particles=100"};
-      settings.insert(settings.end(), extra.begin(), extra.end());
-      const auto result = run(folder, std::move(settings));
-      if (!result || !result->evaluation) return 1;
-      scores.push_back(score(*result));
-    }
-    robots_scores.push_back(combine(scores, median));
-    print(std::to_string(robot), robots_scores.back());
+    std::vector<std::string> settings{fmt::format("input.robot={}", robot)};
+    settings.insert(settings.end(), extra.begin(), extra.end());
+    const auto scored = score_filter(folder, filter, seeds, settings);
+    if (!scored) return 1;
+    robots_scores.push_back(*scored);
+    print(std::to_string(robot), *scored);
   }
   print("mean", combine(robots_scores, mean));
+  return 0;
+}
+
+/// Both filters on lost-in-the-woods.
+int woods(const std::string& log, int seeds, const std::vector<std::string>& extra) {
+  fmt::print("{}: RMSE in m\n", log);
+  print_head("filter");
+  for (const std::string filter : {"ekf", "fastslam"}) {
+    const auto scored = score_filter(log, filter, seeds, extra);
+    if (!scored) return 1;
+    print(filter, *scored);
+  }
   return 0;
 }
 
@@ -197,16 +227,27 @@ int main(int argc, char** argv) {
   mrclam->add_option("--robots", robots);
   mrclam->add_option("--filter", filter);
   mrclam->add_option("--seeds", seeds, "FastSLAM: median over this many");
-  mrclam->callback(
-      [&] { status = waymark::mrclam(folder, robots, filter, filter == "ekf" ? 1 : seeds, settings); });
+  mrclam->callback([&] { status = waymark::mrclam(folder, robots, filter, seeds, settings); });
+  auto* woods = app.add_subcommand("woods", "errors of both filters on lost-in-the-woods");
+  woods->add_option("log", folder)->required();
+  woods->add_option("--seeds", seeds, "FastSLAM: median over this many");
+  woods->callback([&] { status = waymark::woods(folder, seeds, settings); });
   auto* loop = app.add_subcommand("loop", "how far a log that returns to its start ends from it");
   loop->add_option("log", folder)->required();
   loop->callback([&] { status = waymark::loop_closure(folder, settings); });
   auto* study = app.add_subcommand("study", "the simulated world that serves every comparison");
   study->add_option("--seeds", study_seeds);
   study->callback([&] { status = waymark::study(study_seeds, settings); });
-  for (auto* command : {mrclam, loop, study})
+  int frames = 5000;
+  int threads = 1;
+  auto* compressed =
+      app.add_subcommand("compressed", "what a step costs in a large map, and how exact it is");
+  compressed->add_option("--frames", frames);
+  compressed->add_option("--threads", threads);
+  compressed->callback([&] { status = waymark::compressed(frames, threads); });
+  for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
+  waymark::add_consistency(app);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

@@ -7,6 +7,7 @@
 
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/io/map_files.hpp"
+#include "waymark/io/pose_covariances.hpp"
 #include "waymark/io/tum.hpp"
 #include "waymark/report/metrics.hpp"
 
@@ -30,13 +31,27 @@ struct Estimate {
   std::vector<LandmarkEstimate> map;
 };
 
+/// The landmarks of map.csv under the full ids of map.waymark: of an id the table has the number only.
+Result<std::vector<LandmarkEstimate>> read_landmarks(const fs::path& folder) {
+  auto landmarks = read_map_csv(folder / "map.csv");
+  if (!landmarks || !fs::exists(folder / "map.waymark")) return landmarks;
+  const auto map = read_map(folder / "map.waymark");
+  if (!map) return map.error();
+  if (map->ids.size() != landmarks->size()) return landmarks;
+  for (std::size_t i = 0; i < landmarks->size(); ++i) (*landmarks)[i].id = map->ids[i];
+  return landmarks;
+}
+
 Result<Estimate> read_estimate(const fs::path& path) {
   const bool folder = fs::is_directory(path);
   auto trajectory = read_tum(folder ? path / "trajectory.tum" : path);
   if (!trajectory) return trajectory.error();
   Estimate estimate{std::move(*trajectory), {}};
+  const fs::path covariances = path / "trajectory_covariance.csv";
+  if (folder && fs::exists(covariances))
+    if (auto done = read_pose_covariances(covariances, estimate.trajectory); !done) return done.error();
   if (!folder || !fs::exists(path / "map.csv")) return estimate;
-  auto map = read_map_csv(path / "map.csv");
+  auto map = read_landmarks(path);
   if (!map) return map.error();
   estimate.map = std::move(*map);
   return estimate;

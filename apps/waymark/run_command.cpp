@@ -65,7 +65,7 @@ Result<void> run(const Request& request) {
 void add_run(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, an MRCLAM directory, or sim:SCENARIO")
+  command->add_option("input", request->input, "a log folder, a published data set, or sim:SCENARIO")
       ->required();
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
       ->type_name("OUT");
@@ -84,7 +84,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run LOG -o out\n"
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
-      "Writes trajectory.tum, map.csv, map.waymark, config.yaml, metrics.json and report.html.");
+      "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
+      "report.html.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 

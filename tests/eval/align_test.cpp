@@ -76,6 +76,35 @@ TEST(AlignRigidRobust, HandlesManyPointsAndExactOnes) {
   EXPECT_FALSE(align_rigid_robust(std::span(from).first(2), std::span(from).first(2)));
 }
 
+TEST(AlignSimilarity, RecoversRandomSimilaritiesAndIsTheLeastSquaresOne) {
+  RandomStream random = test::random_stream(11);
+  for (int i = 0; i < 20; ++i) {
+    const Similarity truth{random.uniform(0.2, 3.0), test::random_pose(random)};
+    const auto from = test::random_points(random, 8);
+    std::vector<Eigen::Vector2d> to;
+    for (const auto& p : from) to.push_back(truth * p);
+    const auto found = align_similarity(from, to);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->scale, truth.scale, 1e-12);
+    for (std::size_t k = 0; k < from.size(); ++k) EXPECT_LT((*found * from[k] - to[k]).norm(), 1e-11);
+  }
+  const auto from = test::random_points(random, 8);
+  const auto to = test::random_points(random, 8);
+  const auto cost = [&](const Similarity& s) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) sum += (s * from[k] - to[k]).squaredNorm();
+    return sum;
+  };
+  const Similarity best = *align_similarity(from, to);
+  for (const double step : {-1e-3, 1e-3}) {
+    EXPECT_LT(cost(best), cost({best.scale + step, best.motion}));
+    EXPECT_LT(cost(best),
+              cost({best.scale, {best.motion.x_m + step, best.motion.y_m, best.motion.theta_rad}}));
+    EXPECT_LT(cost(best),
+              cost({best.scale, {best.motion.x_m, best.motion.y_m, best.motion.theta_rad + step}}));
+  }
+}
+
 TEST(FittedScale, FindsTheScaleWhateverTheMotion) {
   RandomStream random = random_stream(7);
   const auto from = random_points(random, 30);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "io_support.hpp"
+#include "mat_support.hpp"
 
 namespace waymark {
 namespace {
@@ -24,9 +25,39 @@ TEST(OpenSource, RecognisesMrclamAndPassesTheRobotOn) {
   folder.write("Robot2_Odometry.dat", "1 0 0\n");
   folder.write("Robot2_Measurement.dat", "");
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("input.robot can be 2"));
-  const auto source = open_source(folder.path(), {.mrclam = {.robot = 2}});
+  const auto source = open_source(folder.path(), {.robot = 2});
   ASSERT_TRUE(source.ok()) << source.error().message;
   EXPECT_EQ((*source)->info().format, "MRCLAM");
+}
+
+TEST(OpenSource, RecognisesMatFilesByTheirVariablesAndChoosesTheRun) {
+  const TempFolder folder;
+  const std::string other = test::mat_header() + test::mat_variable("other", Eigen::MatrixXd::Zero(1, 1));
+  const auto first = folder.write("a.mat", other);
+  folder.write("b.mat", "damaged");
+  EXPECT_THAT(
+      open_source(first).error().message,
+      HasSubstr("a.mat is no log: expected the variables of Plaza (GT, DR, TD) or lost-in-the-woods"));
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("a.mat is no log"));
+  EXPECT_THAT(open_source(folder.path(), {.run = 2}).error().message,
+              HasSubstr("b.mat: is no MATLAB file that can be read"));
+  EXPECT_THAT(open_source(folder.path(), {.run = 3}).error().message,
+              HasSubstr("there is no run 3; input.run can be 1 to 2"));
+}
+
+TEST(OpenSource, RecognisesPlazaAsTextAndTheLabyrinth) {
+  const TempFolder plaza;
+  plaza.write("Plaza1_DR.txt", "1 0.1 0\n2 0.1 0\n");
+  plaza.write("Plaza1_TD.txt", "1 2 5 10\n");
+  const auto run = open_source(plaza.path());
+  ASSERT_TRUE(run.ok()) << run.error().message;
+  EXPECT_EQ((*run)->info().format, "Plaza");
+  EXPECT_THAT(open_source(plaza.path() / "Plaza1_DR.txt").error().message, HasSubstr("give its folder"));
+  const TempFolder labyrinth;
+  labyrinth.write("Indoor_UWB_Input.txt", "range2 1 2 0.01 0 0 107 0\n");
+  const auto other = open_source(labyrinth.path());
+  ASSERT_TRUE(other.ok()) << other.error().message;
+  EXPECT_EQ((*other)->info().format, "UWB labyrinth");
 }
 
 TEST(OpenSource, LogFolderWithoutLogYamlIsStillMeantAsOne) {
@@ -67,8 +98,10 @@ TEST(OpenSource, InputKeysAreBoundToTheOptions) {
   describe(schema, options);
   EXPECT_TRUE(schema.set("input.robot", "3", "test").ok());
   EXPECT_TRUE(schema.set("input.fix_known_errors", "false", "test").ok());
-  EXPECT_EQ(options.mrclam.robot, 3);
-  EXPECT_FALSE(options.mrclam.fix_known_errors);
+  EXPECT_TRUE(schema.set("input.run", "2", "test").ok());
+  EXPECT_EQ(options.robot, 3);
+  EXPECT_EQ(options.run, 2);
+  EXPECT_FALSE(options.fix_known_errors);
   EXPECT_FALSE(schema.set("input.robot", "0", "test").ok());
 }
 

@@ -49,16 +49,19 @@ refuses 2 'empty' run empty -o o
 refuses 2 'empty' check empty
 refuses 2 'nowhere.tum' eval nowhere.tum --truth empty
 
+printf 'MATLAB 5.0 MAT-file, broken off' >x.mat
+refuses 2 'x.mat: is no MATLAB file' run x.mat -o o
+
 # A log, whole and damaged.
 does sim square -o log --seed 3
 does check log
 grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to run'
 does run log -o whole
-for file in trajectory.tum map.csv map.waymark config.yaml metrics.json report.html; do
+for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"
 done
 does run log -o again --config whole/config.yaml --threads 2
-for file in trajectory.tum map.csv; do
+for file in trajectory.tum trajectory_covariance.csv map.csv; do
   cmp -s "whole/$file" "again/$file" || fail "$file differs when run again with its own config and two threads"
 done
 does eval whole --truth log --json

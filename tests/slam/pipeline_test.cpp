@@ -38,8 +38,8 @@ class Recorder final : public Filter {
 
 struct Fixture {
   explicit Fixture(PipelineOptions options = {}, LandmarkSensor sensor = {},
-                   Observe observe = Observe::kRangeBearing)
-      : pipeline(filter, options, {}, sensor, observe,
+                   Observe observe = Observe::kRangeBearing, OdometryOptions odometry = {})
+      : pipeline(filter, options, odometry, sensor, observe,
                  [this](const Step& step) { stamps.push_back(step.stamp); }) {}
 
   void push(std::vector<Event> events) {
@@ -91,6 +91,14 @@ TEST(Pipeline, MovesToTheMomentOfTheSightingNotOfItsStamp) {
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }
 
+TEST(Pipeline, MovesWhenTheRobotFollowsItsCommand) {
+  OdometryOptions odometry;
+  odometry.response_s = 0.2;
+  Fixture f({}, {}, Observe::kRangeBearing, odometry);
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
+}
+
 TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
   LandmarkSensor sensor;
   sensor.range_sigma_m = 0.1;
@@ -116,6 +124,16 @@ TEST(Pipeline, UsesThePartThatIsAskedFor) {
   EXPECT_EQ(std::get<Bearing>(used.value).bearing_rad, 0.5);
   EXPECT_EQ(*used.covariance, (Eigen::Matrix2d{{4.0, 0.0}, {0.0, 0.0}}));
   EXPECT_EQ(f.pipeline.counts().wrong_kind, 1);
+}
+
+TEST(Pipeline, HandsOnDistancesInsteadOfRanges) {
+  LandmarkSensor sensor;
+  sensor.range_scale = 1.1;
+  sensor.range_offset_m = 0.5;
+  Fixture f({}, sensor, Observe::kRange);
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1, Range{1.1 * 4.0 + 0.5})})});
+  ASSERT_EQ(f.filter.batches.size(), 1U);
+  EXPECT_NEAR(std::get<Range>(f.filter.batches[0][0].value).range_m, 4.0, 1e-12);
 }
 
 TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {

@@ -107,4 +107,12 @@ std::optional<double> fitted_scale(Points from, Points to) {
   return std::hypot(m.dot, m.cross) / m.squares;
 }
 
+std::optional<Similarity> align_similarity(Points from, Points to) {
+  const auto scale = fitted_scale(from, to);
+  if (!scale) return std::nullopt;
+  const double angle_rad = align_rigid(from, to)->theta_rad;
+  const Eigen::Vector2d t = mean(to) - *scale * (rotation_matrix(angle_rad) * mean(from));
+  return Similarity{*scale, {t.x(), t.y(), angle_rad}};
+}
+
 }  // namespace waymark::eval

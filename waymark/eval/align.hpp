@@ -21,6 +21,19 @@ namespace waymark::eval {
 [[nodiscard]] std::optional<Pose2> align_rigid_robust(std::span<const Eigen::Vector2d> from,
                                                       std::span<const Eigen::Vector2d> to);
 
+/// Scale, then rotation, then translation: p -> scale R(angle) p + t.
+struct Similarity {
+  double scale = 1.0;
+  Pose2 motion;  ///< R(angle) and t
+
+  [[nodiscard]] Eigen::Vector2d operator*(const Eigen::Vector2d& p) const { return motion * (scale * p); }
+};
+
+/// The similarity that brings the points `from` nearest to the points `to` (Umeyama 1991 in the plane, no
+/// reflection). Nothing when `from` is a single place. O(n).
+[[nodiscard]] std::optional<Similarity> align_similarity(std::span<const Eigen::Vector2d> from,
+                                                         std::span<const Eigen::Vector2d> to);
+
 /// How many times larger `to` is than `from` in the least-squares similarity (Umeyama 1991). It shows biased
 /// wheels or ranges and is never used to score. Nothing when `from` is a single place. O(n).
 [[nodiscard]] std::optional<double> fitted_scale(std::span<const Eigen::Vector2d> from,

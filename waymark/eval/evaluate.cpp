@@ -79,9 +79,13 @@ Evaluation evaluate(const Trajectory& estimate, std::span<const LandmarkEstimate
                     const TruthTrack& truth, std::span<const TrueLandmark> survey,
                     const Trajectory& dead_reckoning, const EvaluateOptions& options) {
   Evaluation evaluation{.truth_samples = truth.samples().size()};
-  add_path(evaluation, associate(estimate, truth, options.associate));
+  const std::vector<PosePair> pairs = associate(estimate, truth, options.associate);
+  add_path(evaluation, pairs);
   evaluation.odometry = score_path(dead_reckoning, truth, options.associate);
-  evaluation.map = map_error(map, survey, path_frames(evaluation), options.names);
+  const PathFrames frames = path_frames(evaluation);
+  evaluation.map = map_error(map, survey, frames, options.names);
+  if (const auto matches = match_landmarks(map, survey, frames, options.names))
+    evaluation.procrustes = procrustes_score(pairs, places(map, survey, *matches));
   evaluation.notes = notes(evaluation);
   return evaluation;
 }

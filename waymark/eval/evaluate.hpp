@@ -12,6 +12,7 @@
 #include "waymark/eval/associate.hpp"
 #include "waymark/eval/map_error.hpp"
 #include "waymark/eval/path_alignment.hpp"
+#include "waymark/eval/procrustes.hpp"
 #include "waymark/eval/trajectory_error.hpp"
 #include "waymark/eval/truth_track.hpp"
 
@@ -33,10 +34,11 @@ struct Evaluation {
   double scored_s = 0.0;          ///< from the first pair to the last
   std::optional<double> path_m;   ///< length of the true path that is scored
 
-  PathScore path;                       ///< the estimate
-  PathScore odometry;                   ///< dead reckoning alone
-  NeesSummary nees;                     ///< pose, anchored
-  std::optional<MapError> map;          ///< landmarks
+  PathScore path;                             ///< the estimate
+  PathScore odometry;                         ///< dead reckoning alone
+  NeesSummary nees;                           ///< pose, anchored
+  std::optional<MapError> map;                ///< landmarks
+  std::optional<ProcrustesScore> procrustes;  ///< what another habit of scoring would say
   std::vector<RelativeError> relative;  ///< drift over 1, 5, 10 and 20 m, where the truth is long enough
 
   std::optional<Anchor> anchor;     ///< T_truth_estimate at the start

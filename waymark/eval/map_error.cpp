@@ -36,13 +36,8 @@ std::optional<double> rmse_m(Map map, Survey survey, Matches matches,
 
 std::optional<Pose2> self_alignment(Map map, Survey survey, Matches matches) {
   if (matches.size() < kMinSelfAligned) return std::nullopt;
-  std::vector<Eigen::Vector2d> from;
-  std::vector<Eigen::Vector2d> to;
-  for (const auto [i, j] : matches) {
-    from.emplace_back(map[i].position_m.head<2>());
-    to.emplace_back(survey[j].x_m, survey[j].y_m);
-  }
-  return align_rigid(from, to);
+  const MatchedPlaces matched = places(map, survey, matches);
+  return align_rigid(matched.estimated, matched.surveyed);
 }
 
 struct LandmarkNees {
@@ -69,14 +64,6 @@ void add_nees(MapError& error, Map map, Survey survey, Matches matches, const Po
     error.nees_skipped += nees.value ? 0 : 1;
   }
   if (dof > 0) error.nees_per_dof = sum / dof;
-}
-
-std::optional<std::vector<LandmarkMatch>> match(Map map, Survey survey, const PathFrames& frames,
-                                                LandmarkNames names) {
-  if (resolve_names(names, map, survey) == LandmarkNames::kKnown) return match_by_number(map, survey);
-  const auto& T = frames.T_truth_aligned ? frames.T_truth_aligned : frames.T_truth_anchored;
-  if (!T) return std::nullopt;
-  return match_nearest(map, survey, *T);
 }
 
 }  // namespace
@@ -135,9 +122,26 @@ Eigen::Vector3d landmark_error_m(const LandmarkEstimate& estimate, const TrueLan
           has_height(estimate) ? estimate.position_m.z() - truth.z_m : 0.0};
 }
 
+std::optional<std::vector<LandmarkMatch>> match_landmarks(Map map, Survey survey, const PathFrames& frames,
+                                                          LandmarkNames names) {
+  if (resolve_names(names, map, survey) == LandmarkNames::kKnown) return match_by_number(map, survey);
+  const auto& T = frames.T_truth_aligned ? frames.T_truth_aligned : frames.T_truth_anchored;
+  if (!T) return std::nullopt;
+  return match_nearest(map, survey, *T);
+}
+
+MatchedPlaces places(Map map, Survey survey, Matches matches) {
+  MatchedPlaces matched;
+  for (const auto [i, j] : matches) {
+    matched.estimated.emplace_back(map[i].position_m.head<2>());
+    matched.surveyed.emplace_back(survey[j].x_m, survey[j].y_m);
+  }
+  return matched;
+}
+
 std::optional<MapError> map_error(Map map, Survey survey, const PathFrames& frames, LandmarkNames names) {
   if (survey.empty()) return std::nullopt;
-  const auto matches = match(map, survey, frames, names);
+  const auto matches = match_landmarks(map, survey, frames, names);
   if (!matches) return std::nullopt;
   MapError error{.matched = matches->size(),
                  .missed = survey.size() - matches->size(),

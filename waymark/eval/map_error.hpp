@@ -62,6 +62,22 @@ struct PathFrames {
   std::optional<Pose2> T_truth_aligned;
 };
 
+/// Which landmark is which: by number, or the nearest under the path's alignment. Nothing when the ids tell
+/// nothing and the path has no truth.
+[[nodiscard]] std::optional<std::vector<LandmarkMatch>> match_landmarks(
+    std::span<const LandmarkEstimate> map, std::span<const TrueLandmark> survey, const PathFrames& frames,
+    LandmarkNames names = LandmarkNames::kAuto);
+
+/// The places of matched landmarks on the plane, in the frames of the estimate and of the truth.
+struct MatchedPlaces {
+  std::vector<Eigen::Vector2d> estimated;
+  std::vector<Eigen::Vector2d> surveyed;
+};
+
+[[nodiscard]] MatchedPlaces places(std::span<const LandmarkEstimate> map,
+                                   std::span<const TrueLandmark> survey,
+                                   std::span<const LandmarkMatch> matches);
+
 /// Nothing when there is no survey, or neither names nor a path truth to find out which landmark is which.
 [[nodiscard]] std::optional<MapError> map_error(std::span<const LandmarkEstimate> map,
                                                 std::span<const TrueLandmark> survey,

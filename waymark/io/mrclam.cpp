@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "waymark/core/flat_yaml.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/known_settings.hpp"
 #include "waymark/io/merged_log.hpp"
-#include "waymark/io/mrclam_settings.hpp"
 #include "waymark/io/text_lines.hpp"
 
 namespace waymark {
@@ -142,9 +141,9 @@ Result<LogInfo> read_info(const fs::path& folder, int robot) {
   LogInfo info;
   info.name = fmt::format("{} robot {}", base_name(folder), robot);
   info.format = "MRCLAM";
-  const auto settings = flatten_yaml(kMrclamSettings, "configs/mrclam.yaml");
+  auto settings = kMrclamSettings.flat();
   if (!settings) return settings.error();
-  for (const auto& entry : *settings) info.settings.emplace_back(entry.key, entry.value);
+  info.settings = *std::move(settings);
   auto landmarks = read_landmarks(folder / "Landmark_Groundtruth.dat");
   if (!landmarks) return landmarks.error();
   info.landmarks = *std::move(landmarks);

@@ -8,6 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "waymark/io/log_folder.hpp"
+#include "waymark/io/lost_in_the_woods.hpp"
+#include "waymark/io/mrclam.hpp"
+#include "waymark/io/plaza.hpp"
+#include "waymark/io/uwb_labyrinth.hpp"
 
 namespace waymark {
 namespace {
@@ -31,23 +35,73 @@ std::string some_content(const fs::path& folder) {
 Error not_a_log(const fs::path& folder) {
   return {fmt::format(
       "{} is a directory but no log: expected log.yaml with wheels.csv, velocity.csv, steering.csv or "
-      "odometry.csv, or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; found {}",
+      "odometry.csv; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat file of Plaza or "
+      "lost-in-the-woods; or PlazaN_DR.txt with PlazaN_TD.txt; or Indoor_UWB_Input.txt; found {}",
       folder.string(), some_content(folder))};
 }
 
 Error not_a_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (is_log_folder(folder) || is_mrclam(folder))
+  if (is_log_folder(folder) || is_mrclam(folder) || is_uwb_labyrinth(folder) ||
+      !plaza_text_runs(folder).empty())
     return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
-  return {fmt::format("{} is no log: expected a log folder or an MRCLAM directory", file.string())};
+  return {
+      fmt::format("{} is no log: expected a log folder, an MRCLAM directory, or a .mat file of Plaza or "
+                  "lost-in-the-woods",
+                  file.string())};
+}
+
+bool is_mat_file(const fs::path& path) { return path.extension() == ".mat"; }
+
+std::vector<fs::path> mat_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (is_mat_file(entry.path())) files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+Result<std::unique_ptr<Source>> open_mat_file(const fs::path& path, const InputOptions& options) {
+  const auto file = MatFile::open(path);
+  if (!file) return file.error();
+  if (is_plaza(*file)) return open_plaza(*file, options.fix_known_errors);
+  if (is_lost_in_the_woods(*file)) return open_lost_in_the_woods(*file);
+  return Error{fmt::format(
+      "{} is no log: expected the variables of Plaza (GT, DR, TD) or lost-in-the-woods (t, v, om, r, b, "
+      "...); found {}",
+      path.string(), file->names().empty() ? "none" : file->names())};
+}
+
+/// The recording that input.run asks for.
+Result<fs::path> choose_run(const fs::path& folder, const std::vector<fs::path>& runs, int run) {
+  if (static_cast<std::size_t>(run) <= runs.size()) return runs[static_cast<std::size_t>(run) - 1];
+  return Error{
+      fmt::format("{}: there is no run {}; input.run can be 1 to {}", folder.string(), run, runs.size())};
+}
+
+Result<std::unique_ptr<Source>> open_folder(const fs::path& folder, const InputOptions& options) {
+  if (is_log_folder(folder)) return open_log_folder(folder);
+  if (is_mrclam(folder)) return open_mrclam(folder, {options.robot, options.fix_known_errors});
+  if (is_uwb_labyrinth(folder)) return open_uwb_labyrinth(folder);
+  if (const auto files = mat_files(folder); !files.empty()) {
+    const auto file = choose_run(folder, files, options.run);
+    return file ? open_mat_file(*file, options) : file.error();
+  }
+  if (const auto runs = plaza_text_runs(folder); !runs.empty()) {
+    const auto run = choose_run(folder, runs, options.run);
+    return run ? open_plaza_text(*run) : run.error();
+  }
+  return not_a_log(folder);
 }
 
 }  // namespace
 
 void describe(Schema& schema, InputOptions& options) {
-  schema.integer("input.robot", options.mrclam.robot, {1, 99},
-                 "which robot, where a recording holds several");
-  schema.boolean("input.fix_known_errors", options.mrclam.fix_known_errors,
+  schema.integer("input.robot", options.robot, {1, 99}, "which robot, where a recording holds several");
+  schema.integer("input.run", options.run, {1, 99},
+                 "which recording of a folder that holds several, in the order of their names");
+  schema.boolean("input.fix_known_errors", options.fix_known_errors,
                  "put right what is known to be wrong in a published recording");
 }
 
@@ -56,10 +110,9 @@ Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOpt
   const auto status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) return Error{"no such file or directory: " + path.string()};
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
-  if (!fs::is_directory(status)) return not_a_folder(path);
-  if (is_log_folder(path)) return open_log_folder(path);
-  if (is_mrclam(path)) return open_mrclam(path, options.mrclam);
-  return not_a_log(path);
+  if (fs::is_directory(status)) return open_folder(path, options);
+  if (is_mat_file(path)) return open_mat_file(path, options);
+  return not_a_folder(path);
 }
 
 }  // namespace waymark

@@ -6,20 +6,22 @@
 #include "waymark/core/config.hpp"
 #include "waymark/core/result.hpp"
 #include "waymark/core/source.hpp"
-#include "waymark/io/mrclam.hpp"
 
 namespace waymark {
 
 /// What a user may have to say about an input; its format is not among it.
 struct InputOptions {
-  MrclamOptions mrclam;
+  int robot = 1;                 ///< of a MRCLAM directory
+  int run = 1;                   ///< of a folder with several recordings, in the order of their names
+  bool fix_known_errors = true;  ///< put right what is known to be wrong in a published recording
 };
 
 /// Keys input.*.
 void describe(Schema& schema, InputOptions& options);
 
-/// Opens a recording of any known format, recognised by what it holds: a Waymark log folder or an MRCLAM
-/// dataset.
+/// Opens a recording of any known format, recognised by what it holds: a Waymark log folder, an MRCLAM
+/// dataset, the UWB labyrinth, a Plaza run or lost-in-the-woods (the .mat file or its folder; Plaza also as
+/// text).
 [[nodiscard]] Result<std::unique_ptr<Source>> open_source(const std::filesystem::path& path,
                                                           const InputOptions& options = {});
 

@@ -61,6 +61,12 @@ Json relative_json(const std::vector<eval::RelativeError>& relative) {
   return rows;
 }
 
+Json procrustes_json(const eval::ProcrustesScore& score) {
+  Json json{{"scale", rounded(score.scale)}, {"landmark_rmse_m", rounded(score.landmark_rmse_m)}};
+  put(json, "position_rmse_m", score.position_rmse_m);
+  return json;
+}
+
 Json truth_json(const eval::Evaluation& e) {
   Json truth = Json::object();
   put(truth, "position_rmse_m", e.path.position_rmse_m);
@@ -69,6 +75,7 @@ Json truth_json(const eval::Evaluation& e) {
   put(truth, "final_error_m", e.path.final_error_m);
   if (e.map) {
     put(truth, "landmark_rmse_m", e.map->rmse_m);
+    put(truth, "landmark_rmse_anchored_m", e.map->rmse_anchored_m);
     put(truth, "landmark_rmse_self_m", e.map->rmse_self_m);
     truth["landmarks_missed"] = e.map->missed;
     truth["landmarks_spurious"] = e.map->spurious;
@@ -76,6 +83,7 @@ Json truth_json(const eval::Evaluation& e) {
   }
   put(truth, "nees_mean", e.nees.mean);
   put(truth, "nees_median", e.nees.median);
+  put(truth, "nees_inside_95", e.nees.inside_95);
   put(truth, "odometry_position_rmse_m", e.odometry.position_rmse_m);
   put(truth, "odometry_position_rmse_aligned_m", e.odometry.position_rmse_aligned_m);
   put(truth, "odometry_final_error_m", e.odometry.final_error_m);
@@ -83,12 +91,27 @@ Json truth_json(const eval::Evaluation& e) {
   truth["samples"] = e.pairs;
   if (e.fit) put(truth, "scale", e.fit->scale);
   if (!e.relative.empty()) truth["relative"] = relative_json(e.relative);
+  if (e.procrustes) truth["procrustes"] = procrustes_json(*e.procrustes);
   return truth;
 }
 
 std::string line(const std::string& what, const std::optional<double>& value, const char* unit,
                  const std::string& more = "") {
   return value ? fmt::format("  {:<30}{:>9.3f} {}{}\n", what, *value, unit, more) : std::string();
+}
+
+std::string nees_details(const eval::NeesSummary& nees) {
+  if (!nees.mean || !nees.inside_95) return "";
+  return fmt::format("   (mean {:.2f}, ideal 3; {:.0f} % below the 95 % limit)", *nees.mean,
+                     100.0 * *nees.inside_95);
+}
+
+/// One row of the relative error over sub-paths.
+std::string drift_line(const eval::RelativeError& relative) {
+  const std::string heading =
+      relative.heading_rmse_rad ? fmt::format("   {:.2f} deg", to_degrees(*relative.heading_rmse_rad)) : "";
+  return line(fmt::format("drift over {:.0f} m", relative.distance_m), relative.position_rmse_m, "m",
+              heading + fmt::format("   ({} sub-paths)", relative.count));
 }
 
 }  // namespace
@@ -192,10 +215,13 @@ std::string to_text(const eval::Evaluation& e) {
     text += line("landmark RMSE, with the path", e.map->rmse_m, "m");
     text += line("landmark RMSE, by themselves", e.map->rmse_self_m, "m");
   }
-  text += line("pose NEES, median (ideal 2.4)", e.nees.median, "");
-  for (const auto& relative : e.relative)
-    if (relative.position_rmse_m)
-      text += line(fmt::format("drift over {:.0f} m", relative.distance_m), relative.position_rmse_m, "m");
+  text += line("pose NEES, median (ideal 2.4)", e.nees.median, "", nees_details(e.nees));
+  if (e.map) text += line("landmark NEES per dof (ideal 1)", e.map->nees_per_dof, "");
+  for (const auto& relative : e.relative) text += drift_line(relative);
+  if (e.procrustes)
+    text += line("Procrustes on landmarks, path", e.procrustes->position_rmse_m, "m",
+                 fmt::format("   (scale {:.4f}, landmarks {:.3f} m; misleads, see docs/evaluation.md)",
+                             e.procrustes->scale, e.procrustes->landmark_rmse_m));
   for (const auto& note : e.notes) text += fmt::format("  note: {}\n", note);
   return text;
 }

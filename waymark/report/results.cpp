@@ -2,6 +2,7 @@
 
 #include "waymark/io/files.hpp"
 #include "waymark/io/map_files.hpp"
+#include "waymark/io/pose_covariances.hpp"
 #include "waymark/io/tum.hpp"
 #include "waymark/report/report.hpp"
 #include "waymark/report/run_report.hpp"
@@ -55,6 +56,10 @@ Result<void> write_results(const RunResult& result, const std::filesystem::path&
                            const std::string& command) {
   if (auto made = ensure_output_folder(folder); !made) return made;
   if (auto written = write_trajectory(folder / "trajectory.tum", result.recording.trajectory); !written)
+    return written;
+  if (auto written =
+          write_pose_covariances(folder / "trajectory_covariance.csv", result.recording.trajectory);
+      !written)
     return written;
   if (auto written = write_maps(result, folder); !written) return written;
   Config config = result.config;

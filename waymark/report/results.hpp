@@ -29,7 +29,8 @@ struct RunResult {
                                         const TimeSpan& span = {},
                                         const std::function<bool(double)>& keep_going = {});
 
-/// Writes trajectory.tum, map.csv, map.waymark, config.yaml, metrics.json and report.html into `folder`.
+/// Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and
+/// report.html into `folder`.
 /// `command` is what the report says it came from.
 [[nodiscard]] Result<void> write_results(const RunResult& result, const std::filesystem::path& folder,
                                          const std::string& command);

@@ -141,17 +141,7 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);
   add_truth(events, driven, options.truth);
-  std::ranges::stable_sort(events, {}, &Event::stamp);
   return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events)));
-}
-
-Result<std::optional<Event>> Simulation::next() {
-  if (next_ == events_.size()) return std::optional<Event>{};
-  return std::optional(std::move(events_[next_++]));
-}
-
-double Simulation::progress() const {
-  return static_cast<double>(next_) / static_cast<double>(events_.size());
 }
 
 }  // namespace waymark::sim

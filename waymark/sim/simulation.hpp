@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "waymark/core/source.hpp"
+#include "waymark/core/event_list.hpp"
 #include "waymark/sim/drive.hpp"
 #include "waymark/sim/options.hpp"
 
@@ -21,23 +20,15 @@ namespace waymark::sim {
 /// would have it and so mostly between two odometry readings; scans that show nothing leave no event, as in a
 /// log folder. Observations carry no covariance: the noise stands in info().settings, together with wheels,
 /// mount and limits.
-class Simulation final : public Source {
+class Simulation final : public EventList {
  public:
   /// `name` becomes the log's. Refuses options that validate() refuses, and drives of more than ten million
   /// events.
   static Result<std::unique_ptr<Simulation>> make(std::string name, const SimOptions& options,
                                                   std::uint64_t seed);
 
-  [[nodiscard]] const LogInfo& info() const override { return info_; }
-  [[nodiscard]] Result<std::optional<Event>> next() override;
-  [[nodiscard]] double progress() const override;
-
  private:
-  Simulation(LogInfo info, std::vector<Event> events) : info_(std::move(info)), events_(std::move(events)) {}
-
-  LogInfo info_;
-  std::vector<Event> events_;
-  std::size_t next_ = 0;
+  Simulation(LogInfo info, std::vector<Event> events) : EventList(std::move(info), std::move(events)) {}
 };
 
 }  // namespace waymark::sim

@@ -8,8 +8,8 @@ Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
     case FilterKind::kEkf:
       if (config.observe != Observe::kRangeBearing)
         return Error{"observe: the EKF takes range-bearing so far; range or bearing alone: filter=fastslam"};
-      return std::unique_ptr<Filter>(
-          std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor, config.threads));
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor,
+                                                               config.threads, config.sensor.errors));
     case FilterKind::kFastSlam:
       return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, config.sensor,
                                                                 config.seed, config.threads));

@@ -49,12 +49,13 @@ Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const Odometr
       sink_(std::move(sink)),
       odometer_(odometry, options.max_hold_s),
       window_(duration_from_seconds(options.reorder_window_s)),
-      delay_(duration_from_seconds(sensor.delay_s)) {}
+      delay_(duration_from_seconds(sensor.delay_s)),
+      response_(duration_from_seconds(odometry.response_s)) {}
 
 void Pipeline::push(Event event) {
   const bool observed = std::holds_alternative<Observations>(event.content);
   if (!observed && !is_odometry(event.content)) return;
-  if (observed) event.stamp = event.stamp - delay_;
+  event.stamp = observed ? event.stamp - delay_ : event.stamp + response_;
   ++counts_.events;
   if (processed_ && event.stamp < *processed_) {
     ++counts_.late;
@@ -114,10 +115,11 @@ void Pipeline::collect(const Observations& observations) {
   for (const Observation& observation : observations) {
     ++counts_.observations;
     counts_.before_odometry += odometry_seen_ ? 0 : 1;
-    const auto used = part(observation.value, observe_);
+    const Measurement value = rectify(sensor_, observation.value);
+    const auto used = part(value, observe_);
     if (!used) {
       ++counts_.wrong_kind;
-    } else if (!is_usable(sensor_, observation.value)) {
+    } else if (!is_usable(sensor_, value)) {
       ++counts_.unusable;
     } else {
       const Eigen::Matrix2d R =

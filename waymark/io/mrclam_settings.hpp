@@ -1,8 +1,0 @@
-#pragma once
-
-namespace waymark {
-
-/// The text of configs/mrclam.yaml, built in.
-extern const char* const kMrclamSettings;
-
-}  // namespace waymark

@@ -1,0 +1,58 @@
+#include "waymark/io/pose_covariances.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "waymark/core/gaussian.hpp"
+#include "waymark/io/files.hpp"
+#include "waymark/io/number_text.hpp"
+#include "waymark/io/text_table.hpp"
+
+namespace waymark {
+namespace {
+
+constexpr std::string_view kColumns = "stamp_s,sxx,sxy,sxt,syy,syt,stt";
+
+/// Rows and columns of the upper triangle, row by row.
+constexpr std::array<std::pair<int, int>, 6> kUpper{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+
+Eigen::Matrix3d read_covariance(TextTable& row) {
+  Eigen::Matrix3d P;
+  std::size_t column = 1;
+  for (const auto& [i, j] : kUpper) P(i, j) = P(j, i) = row.number(column++);
+  if (!is_covariance(P)) row.fail("the covariance is not positive semi-definite");
+  return P;
+}
+
+}  // namespace
+
+Result<void> write_pose_covariances(const std::filesystem::path& path, const Trajectory& trajectory) {
+  std::string text = std::string(kColumns) + "\n";
+  for (const auto& point : trajectory) {
+    if (!point.covariance) continue;
+    append_stamp(text, point.stamp);
+    for (const auto& [i, j] : kUpper) append_shortest(text += ',', (*point.covariance)(i, j));
+    text += '\n';
+  }
+  return write_file(path, text);
+}
+
+Result<void> read_pose_covariances(const std::filesystem::path& path, Trajectory& trajectory) {
+  auto table = TextTable::open(path, {std::string(kColumns), TableLayout::Separator::kComma, ""});
+  if (!table) return table.error();
+  std::size_t next = 0;
+  while (table->next()) {
+    const Stamp stamp = table->ordered_stamp(0);
+    const Eigen::Matrix3d P = read_covariance(*table);
+    while (next < trajectory.size() && trajectory[next].stamp < stamp) ++next;
+    if (next == trajectory.size() || trajectory[next].stamp != stamp)
+      table->fail("no pose of the trajectory has this stamp; both files must be of one run");
+    else
+      trajectory[next++].covariance = P;
+  }
+  if (table->error()) return *table->error();
+  return {};
+}
+
+}  // namespace waymark
