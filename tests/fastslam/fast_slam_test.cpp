@@ -53,6 +53,8 @@ double effective_after_drive(std::uint64_t seed, bool watching) {
   FastSlamOptions options = with_particles(50);
   options.resample_below = 0.0;
   options.temper_below = 0.0;
+  options.move_above = 1e9;
+  options.proposal = ProposalKind::kMotion;
   FastSlam filter(options, {}, world.sensor(), seed);
   const Observation first = world.sight(0);
   filter.correct({&first, 1});

@@ -50,21 +50,23 @@ constexpr double kRangeVariance = (1e6 - 1.0) / 12.0 * 1e-6;
 TEST_F(GateSampleTest, AddsTheSpreadOfTheSetToTheNoise) {
   const auto both = compare(SightingKind::kRangeBearing, 0.1F);
   EXPECT_TRUE(matrix_near(both.mean, Eigen::Vector2d(3.0 - kMeanRange_m, 0.1), 1e-5));
-  EXPECT_NEAR(both.covariance(0, 0), 0.01 + kRangeVariance, 1e-5);
-  EXPECT_NEAR(both.covariance(1, 1), 0.04, 1e-5);
+  EXPECT_NEAR(both.covariance()(0, 0), 0.01 + kRangeVariance, 1e-5);
+  EXPECT_NEAR(both.covariance()(1, 1), 0.04, 1e-5);
+  EXPECT_NEAR(both.spread(0, 0), kRangeVariance, 1e-5);
+  EXPECT_NEAR(both.noise(0, 0), 0.01, 1e-6);
   const auto range = compare(SightingKind::kRange, 0.0F);
   EXPECT_NEAR(range.mean[0], 3.0 - kMeanRange_m, 1e-5);
-  EXPECT_NEAR(range.covariance(0, 0), 0.01 + kRangeVariance, 1e-5);
+  EXPECT_NEAR(range.covariance()(0, 0), 0.01 + kRangeVariance, 1e-5);
   const auto bearing = compare(SightingKind::kBearing, 0.1F);
   EXPECT_NEAR(bearing.mean[0], 0.1, 1e-5);
-  EXPECT_NEAR(bearing.covariance(0, 0), 0.04, 1e-5);
+  EXPECT_NEAR(bearing.covariance()(0, 0), 0.04, 1e-5);
 }
 
 TEST_F(GateSampleTest, BearingsJustOnEitherSideOfBackwardsDoNotCancel) {
   for (int i = 0; i < kCount; ++i) particles_.set_pose(i, {1e5, 1e5, i % 2 == 0 ? 0.01 : -0.01});
   const auto moments = compare(SightingKind::kBearing, static_cast<float>(kPi));
   EXPECT_GT(std::abs(moments.mean[0]), 3.1);
-  EXPECT_NEAR(moments.covariance(0, 0), 0.04 + 1e-4, 1e-5);
+  EXPECT_NEAR(moments.covariance()(0, 0), 0.04 + 1e-4, 1e-5);
 }
 
 TEST_F(GateSampleTest, DeadParticlesDoNotCountWhateverTheySee) {
@@ -74,12 +76,12 @@ TEST_F(GateSampleTest, DeadParticlesDoNotCountWhateverTheySee) {
   }
   const auto moments = compare(SightingKind::kRange, 0.0F);
   EXPECT_NEAR(moments.mean[0], 3.0 - 4.0, 1e-5);
-  EXPECT_NEAR(moments.covariance(0, 0), 0.01, 1e-5);
+  EXPECT_NEAR(moments.covariance()(0, 0), 0.01, 1e-5);
 }
 
 TEST_F(GateSampleTest, IsNotFiniteWhereALivingParticleIsNot) {
   particles_.set_pose(500, {std::nan(""), 0.0, 0.0});
-  EXPECT_FALSE(compare(SightingKind::kRange, 0.0F).covariance.allFinite());
+  EXPECT_FALSE(compare(SightingKind::kRange, 0.0F).covariance().allFinite());
 }
 
 }  // namespace

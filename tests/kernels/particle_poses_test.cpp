@@ -19,6 +19,7 @@ using test::Columns;
 using test::matrix_near;
 
 constexpr std::size_t kCount = 37;
+constexpr Increment kExpected{0.3F, -0.1F, 0.4F};
 
 /// World poses far from the origin.
 struct World {
@@ -106,8 +107,8 @@ TEST_P(ParticlePoses, DrawAsTheScalarFormulaDoes) {
   const PoseColumns plain_robots = scene.columns().add_poses();
   load_poses(fast.read(), 1e6, -2e6, robots, kCount);
   load_poses(plain.read(), 1e6, -2e6, plain_robots, kCount);
-  draw_poses(scene.increments, n[0], n[1], n[2], robots, fast.move(), kCount);
-  reference::draw_poses(scene.increments, n[0], n[1], n[2], plain_robots, plain.move(), kCount);
+  draw_poses(scene.increments, kExpected, n[0], n[1], n[2], robots, fast.move(), kCount);
+  reference::draw_poses(scene.increments, kExpected, n[0], n[1], n[2], plain_robots, plain.move(), kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
     EXPECT_TRUE(matrix_near(difference(fast.pose(i), plain.pose(i)), Eigen::Vector3d::Zero(), 1e-6));
     EXPECT_NEAR(robots.x[i], fast.x[i] - 1e6, 2e-6);
@@ -158,7 +159,7 @@ Eigen::Matrix3d root_of(const Eigen::Matrix3d& P) {
     robots.cos[i] = 1.0F;
     for (std::size_t k = 0; k < 3; ++k) n[k][i] = i == k ? 1.0F : 0.0F;
   }
-  draw_poses(increments, n[0], n[1], n[2], robots, {x.data(), y.data(), theta.data()}, 16);
+  draw_poses(increments, {}, n[0], n[1], n[2], robots, {x.data(), y.data(), theta.data()}, 16);
   return Eigen::Matrix3d{{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {theta[0], theta[1], theta[2]}};
 }
 
@@ -175,6 +176,22 @@ TEST(DrawPoses, ByARootOfTheCovarianceOfAnyRank) {
   EXPECT_NEAR(root_of(turn_only)(2, 2), 0.2, 1e-7);
 }
 
+TEST(DrawPoses, AHeadingThatWasWrongFromTheStartSwingsTheEnd) {
+  Columns columns(16);
+  const IncrementColumns increments = columns.add_increments();
+  fill_increments({0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.25F}, increments, 16);
+  const PoseColumns robots = columns.add_poses();
+  for (std::size_t i = 0; i < 16; ++i) robots.cos[i] = 1.0F;
+  float* const n[]{columns.add(), columns.add(), columns.add()};
+  n[2][5] = 1.5F;
+  World world(16);
+  const Pose2 start = world.pose(5);
+  load_poses(world.read(), 1e6, -2e6, robots, 16);
+  draw_poses(increments, {10.0F, 0.0F, 0.2F}, n[0], n[1], n[2], robots, world.move(), 16);
+  const Pose2 expected = start * Pose2{0.0, 0.0, 0.75} * Pose2{10.0, 0.0, 0.2};
+  EXPECT_TRUE(matrix_near(difference(world.pose(5), expected), Eigen::Vector3d::Zero(), 1e-5));
+}
+
 TEST(DrawPoses, ARobotThatStandsStillIsNotMovedByABit) {
   World world(kCount);
   const World before(kCount);
@@ -185,7 +202,7 @@ TEST(DrawPoses, ARobotThatStandsStillIsNotMovedByABit) {
   load_poses(world.read(), 1e6, -2e6, robots, kCount);
   float* const n[]{columns.add(), columns.add(), columns.add()};
   draw_normals({5}, n[0], n[1], n[2], kCount);
-  draw_poses(increments, n[0], n[1], n[2], robots, world.move(), kCount);
+  draw_poses(increments, {}, n[0], n[1], n[2], robots, world.move(), kCount);
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(world.pose(i), before.pose(i));
 }
 

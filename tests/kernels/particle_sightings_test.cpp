@@ -40,6 +40,8 @@ constexpr Case kCases[]{
 
 constexpr std::size_t kCounts[]{1, 7, 16, 37};
 
+constexpr Increment kIncrement{0.1F, 0.02F, 0.05F, 2e-3F, 3e-4F, 2e-4F, 1e-3F, 4e-4F, 3e-3F};
+
 ParticleScene make_scene(const Case& c, std::size_t count, std::uint64_t seed = 1) {
   return {count, c.form, c.kind, c.modes, seed};
 }
@@ -93,10 +95,11 @@ TEST_P(ParticleSightings, ConditionAsTheScalarFormulaDoes) {
     compare(
         c,
         [](ParticleScene& s) {
-          condition_increments(s.sighting, s.poses, 0.7, s.increments, s.log_weight(), s.range());
+          condition_increments(s.sighting, kIncrement, s.poses, 0.7, s.increments, s.log_weight(), s.range());
         },
         [](ParticleScene& s) {
-          reference::condition_increments(s.sighting, s.poses, 0.7, s.increments, s.log_weight(), s.range());
+          reference::condition_increments(s.sighting, kIncrement, s.poses, 0.7, s.increments, s.log_weight(),
+                                          s.range());
         });
   }
 }
@@ -110,7 +113,6 @@ TEST_P(ParticleSightings, PlaceAsTheScalarFormulaDoes) {
 }
 
 TEST_P(ParticleSightings, CompareAsTheScalarFormulaDoes) {
-  const Increment increment{0.1F, 0.02F, 0.05F, 2e-3F, 3e-4F, 2e-4F, 1e-3F, 4e-4F, 3e-3F};
   for (const Case& c : kCases)
     for (const std::size_t count : kCounts) {
       ParticleScene scene = make_scene(c, count);
@@ -118,12 +120,32 @@ TEST_P(ParticleSightings, CompareAsTheScalarFormulaDoes) {
       for (std::size_t i = 0; i < count; ++i) weight[i] = random_.uniform();
       const About about{0.2F, -0.1F};
       const auto fast =
-          compare_sighting(scene.sighting, increment, scene.poses, about, weight.data(), scene.range());
-      const auto plain = reference::compare_sighting(scene.sighting, increment, scene.poses, about,
+          compare_sighting(scene.sighting, kIncrement, scene.poses, about, weight.data(), scene.range());
+      const auto plain = reference::compare_sighting(scene.sighting, kIncrement, scene.poses, about,
                                                      weight.data(), scene.range());
-      for (std::size_t k = 0; k < fast.size(); ++k)
-        EXPECT_NEAR(fast[k], plain[k], 2e-5 * (plain[0] + std::abs(plain[k]))) << c.name << ", term " << k;
+      const auto expect_near = [&](double a, double b, const char* what) {
+        EXPECT_NEAR(a, b, 2e-5 * (plain.w + std::abs(b))) << c.name << ", " << what;
+      };
+      expect_near(fast.w, plain.w, "w");
+      for (std::size_t k = 0; k < 2; ++k) expect_near(fast.nu[k], plain.nu[k], "nu");
+      for (std::size_t k = 0; k < 3; ++k) expect_near(fast.nu_nu[k], plain.nu_nu[k], "nu nu");
+      for (std::size_t k = 0; k < 3; ++k) expect_near(fast.L[k], plain.L[k], "L");
     }
+}
+
+TEST_P(ParticleSightings, ListInnovationsAsTheScalarFormulaDoes) {
+  const About about{0.2F, -0.1F};
+  for (const Case& c : kCases) {
+    if (c.modes > 1) continue;
+    ParticleScene scene = make_scene(c, 37);
+    float* const fast[]{scene.columns().add(), scene.columns().add()};
+    float* const plain[]{scene.columns().add(), scene.columns().add()};
+    list_innovations(scene.sighting, kIncrement, scene.poses, about, fast[0], fast[1], scene.range());
+    reference::list_innovations(scene.sighting, kIncrement, scene.poses, about, plain[0], plain[1],
+                                scene.range());
+    for (std::size_t i = 0; i < 37; ++i)
+      for (int k = 0; k < 2; ++k) EXPECT_NEAR(fast[k][i], plain[k][i], 1e-5) << c.name;
+  }
 }
 
 /// Where the landmark is, as function of (robot x, y, theta; a, b): what the measurement sees.
@@ -195,23 +217,45 @@ TEST(UpdateLandmark, IsTheTextbookFilter) {
   }
 }
 
+/// The robot after it moved by s * d: the function whose derivative by s a filter of s needs.
+Pose2 end_of(const Pose2& start, const Eigen::Vector3d& s) {
+  return start * Pose2{s[0], s[1], s[2]} * Pose2{kIncrement.x, kIncrement.y, kIncrement.t};
+}
+
+/// d(measurement)/ds by central differences.
+Eigen::MatrixXd jacobian_of_motion(const ParticleScene& scene, std::size_t i, const Pose2& start,
+                                   const Eigen::Vector3d& s) {
+  const Eigen::Vector2d y = mean_of(scene.gaussian(), i);
+  const auto H = test::numeric_jacobian(
+      [&](const Eigen::Vector3d& x) {
+        const Pose2 robot = end_of(start, x);
+        Eigen::Matrix<double, 5, 1> at;
+        at << robot.x_m, robot.y_m, robot.theta_rad, y;
+        return predicted(scene, i, at);
+      },
+      s);
+  const SightingKind kind = scene.sighting.seen.kind;
+  const int rows = kind == SightingKind::kRangeBearing ? 2 : 1;
+  return H.block(kind == SightingKind::kBearing ? 1 : 0, 0, rows, 3);
+}
+
 TEST(ConditionIncrements, IsTheTextbookFilterOfTheRobotsMotion) {
   for (const Case& c : kCases) {
     if (c.modes > 1) continue;
     ParticleScene before = make_scene(c, 20);
     ParticleScene after = make_scene(c, 20);
-    condition_increments(after.sighting, after.poses, 1.0, after.increments, after.log_weight(),
+    condition_increments(after.sighting, kIncrement, after.poses, 1.0, after.increments, after.log_weight(),
                          after.range());
     for (std::size_t i = 0; i < 20; ++i) {
       const Pose2 start = pose_of(before.poses, i);
-      const Eigen::Vector3d d = mean_of(before.increments, i);
-      const Textbook t = textbook(before, i, start * Pose2{d[0], d[1], d[2]});
-      const Eigen::MatrixXd G = t.H_pose * compose_jacobian_right(start);
+      const Eigen::Vector3d s = mean_of(before.increments, i);
+      const Textbook t = textbook(before, i, end_of(start, s));
+      const Eigen::MatrixXd G = jacobian_of_motion(before, i, start, s);
       const Eigen::Matrix2d Sigma = covariance_of(before.gaussian(), i);
       const Eigen::Matrix3d P = covariance_of(before.increments, i);
       const Eigen::MatrixXd L = G * P * G.transpose() + t.H_landmark * Sigma * t.H_landmark.transpose() + t.R;
       const Eigen::MatrixXd K = P * G.transpose() * L.inverse();
-      EXPECT_TRUE(matrix_near(mean_of(after.increments, i), d + K * t.nu, 1e-5)) << c.name;
+      EXPECT_TRUE(matrix_near(mean_of(after.increments, i), s + K * t.nu, 1e-5)) << c.name;
       EXPECT_TRUE(matrix_near(covariance_of(after.increments, i), P - K * L * K.transpose(), 1e-6)) << c.name;
       EXPECT_NEAR(after.log_weight()[i], log_normal(t.nu, L), 1e-3 + 1e-5 * std::abs(after.log_weight()[i]))
           << c.name;
@@ -220,29 +264,32 @@ TEST(ConditionIncrements, IsTheTextbookFilterOfTheRobotsMotion) {
 }
 
 TEST(CompareSighting, GivesTheMomentsOfTheMixture) {
-  const Increment increment{0.1F, 0.02F, 0.05F, 2e-3F, 3e-4F, 2e-4F, 1e-3F, 4e-4F, 3e-3F};
+  const Increment& d = kIncrement;
   const Eigen::Matrix3d P =
-      Eigen::Matrix3f{{2e-3F, 3e-4F, 2e-4F}, {3e-4F, 1e-3F, 4e-4F}, {2e-4F, 4e-4F, 3e-3F}}.cast<double>();
+      Eigen::Matrix3f{{d.xx, d.xy, d.xt}, {d.xy, d.yy, d.yt}, {d.xt, d.yt, d.tt}}.cast<double>();
   ParticleScene scene = make_scene(kCases[0], 20);
   AlignedArray<double> weight(32);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < 20; ++i) {
     weight[i] = 0.01 * static_cast<double>(i);
     const Pose2 start = pose_of(scene.poses, i);
-    const Textbook t = textbook(scene, i, start * Pose2{0.1, 0.02, 0.05});
-    const Eigen::MatrixXd G = t.H_pose * compose_jacobian_right(start);
-    const Eigen::Matrix2d L = G * P * G.transpose() +
-                              t.H_landmark * covariance_of(scene.gaussian(), i) * t.H_landmark.transpose() +
-                              t.R;
+    const Textbook t = textbook(scene, i, end_of(start, Eigen::Vector3d::Zero()));
+    const Eigen::MatrixXd G = jacobian_of_motion(scene, i, start, Eigen::Vector3d::Zero());
+    noise += weight[i] * (G * P * G.transpose() + t.R +
+                          t.H_landmark * covariance_of(scene.gaussian(), i) * t.H_landmark.transpose());
     mean += weight[i] * t.nu;
-    second += weight[i] * (L + t.nu * t.nu.transpose());
+    second += weight[i] * t.nu * t.nu.transpose();
   }
-  const auto sums =
-      compare_sighting(scene.sighting, increment, scene.poses, {}, weight.data(), scene.range());
-  EXPECT_NEAR(sums[0], 1.9, 1e-6);
-  EXPECT_TRUE(matrix_near(Eigen::Vector2d(sums[1], sums[2]), mean, 1e-5));
-  EXPECT_TRUE(matrix_near(Eigen::Matrix2d{{sums[3], sums[4]}, {sums[4], sums[5]}}, second, 1e-5));
+  const auto sums = compare_sighting(scene.sighting, d, scene.poses, {}, weight.data(), scene.range());
+  const auto matrix = [](const std::array<double, 3>& m) {
+    return Eigen::Matrix2d{{m[0], m[1]}, {m[1], m[2]}};
+  };
+  EXPECT_NEAR(sums.w, 1.9, 1e-6);
+  EXPECT_TRUE(matrix_near(Eigen::Vector2d(sums.nu[0], sums.nu[1]), mean, 1e-5));
+  EXPECT_TRUE(matrix_near(matrix(sums.nu_nu), second, 1e-5));
+  EXPECT_TRUE(matrix_near(matrix(sums.L), noise, 1e-5));
 }
 
 TEST(UpdateLandmark, StaysPositiveDefiniteHoweverSharpTheSensor) {

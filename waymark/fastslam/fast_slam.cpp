@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -20,11 +21,13 @@ enum Block : std::size_t { kAssociate, kCompare, kUpdate, kEstimate, kResample, 
 
 // Particles draw from the collected motion at the latest when its heading is this unsure: a Gaussian (x, y,
 // theta) is then still a good picture of it, the sagitta 1 - cos(3 sigma) being 0.4 % of the distance.
-constexpr double kMaxPendingHeadingSigma_rad = 0.03;
+constexpr double kMaxPendingHeadingSigma_rad = 0.5;
 
 // A misread identity is an odd one out. So many gated sightings without an accepted one between them mean
 // that the particles are lost, and a lost set that gates would stay lost.
 constexpr int kMostGatedInARow = 5;
+constexpr int kMostDoublings = 8;
+const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 
 // How much of a way a turn on the spot counts as: it shows a landmark from no new place, but at a new
 // bearing.
@@ -32,6 +35,14 @@ constexpr double kMetresPerRadian = 0.3;
 
 // What a float can tell: a sensor is not believed to be sharper than that, as a part of its range and in rad.
 constexpr double kSharpestSigma = 1e-6;
+
+// Sightings nearer to each other than this are as good as one.
+constexpr double kLeastWay_m = 1e-3;
+
+// A sighting that brings less news than this is not asked whether it should move particles.
+constexpr double kLeastNews = 0.1;
+// So many particles FastSlamOptions::move_above is for; more can afford to lose more.
+constexpr double kParticlesOfMoveAbove = 100.0;
 
 // Whether a landmark may become a point is asked at every so many sightings of it.
 constexpr int kSightingsPerRefinement = 4;
@@ -108,6 +119,10 @@ void describe(Schema& schema, FastSlamOptions& o) {
   schema.real(
       "fastslam.temper_below", o.temper_below, {0.0, 1.0},
       "flatten the weights when the effective number of particles would fall below this part of them");
+  schema.real(
+      "fastslam.move_above", o.move_above, {0.0, 1e9},
+      "move 100 particles and their maps, instead of weighing them, where what they expect to see varies "
+      "by more than this part of its noise; n times as many by n times as much");
   schema.real("fastslam.noise_inflation", o.noise_inflation, {0.1, 100.0},
               "factor on the standard deviations of observations; few particles need a blunter sensor");
   schema.real(
@@ -127,6 +142,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       particles_(options.particles, initial.T_world_robot),
       store_(particle_blocks_),
       gate_sample_(options.particles),
+      move_(particle_blocks_),
       ancestors_(particle_blocks_.capacity()),
       index_(static_cast<std::size_t>(options.capacity)),
       estimate_(initial) {
@@ -186,6 +202,7 @@ bool FastSlam::any(Outcome outcome) const {
 
 void FastSlam::associate(std::span<const Observation> observations) {
   innovations_.assign(observations.size(), {});
+  moments_.assign(observations.size(), {});
   int room = options_.capacity - store_.size();
   for (std::size_t i = 0; i < observations.size(); ++i) {
     Innovation& innovation = innovations_[i];
@@ -211,70 +228,159 @@ Outcome FastSlam::screen(std::size_t index, const Observation& observation) cons
   return fits ? Outcome::kMatched : Outcome::kUnusable;
 }
 
-SeenLandmark FastSlam::seen(const Observation& observation) const {
+/// What a sighting tells after that way since the last one of the same landmark. The particles have no states
+/// for errors that outlive a sighting. Errors that fall to exp(-w / lasting_way) after a way w leave a run of
+/// sightings a way w apart with as much news, each, as one of variance 1 / tanh(w / (2 lasting_way)) would
+/// bring that errs anew every time: they count as such.
+SeenLandmark FastSlam::seen(const Observation& observation, double way_since_m) const {
   const Measured z = *measured(observation.value);
-  const double inflation = options_.noise_inflation * options_.noise_inflation;
-  const Eigen::Matrix2d R = inflation * *observation.covariance;
+  const SensorErrors& e = sensor_.errors;
+  const double repeated = 1.0 / std::tanh(std::max(way_since_m, kLeastWay_m) / (2.0 * e.lasting_way_m));
+  const auto variance = [&](int i, double shared, double lasting, double sharpest) {
+    const double inflation = options_.noise_inflation * options_.noise_inflation;
+    const double R =
+        inflation * (*observation.covariance)(i, i) + shared * shared + repeated * lasting * lasting;
+    return static_cast<float>(std::max(R, sharpest * sharpest));
+  };
   const double direction_rad = z.bearing_rad + to_radians(sensor_.yaw_deg);
   SeenLandmark seen{z.kind, static_cast<float>(z.range_m), static_cast<float>(std::cos(direction_rad)),
                     static_cast<float>(std::sin(direction_rad))};
-  const double least_rr = kSharpestSigma * kSharpestSigma * std::max(1.0, z.range_m * z.range_m);
-  if (z.kind != SightingKind::kBearing) seen.R_rr = static_cast<float>(std::max(R(0, 0), least_rr));
-  if (z.kind == SightingKind::kRangeBearing) seen.R_rb = static_cast<float>(R(0, 1));
+  if (z.kind != SightingKind::kBearing)
+    seen.R_rr = variance(0, e.shared_range_sigma_ratio * z.range_m, e.lasting_range_sigma_ratio * z.range_m,
+                         kSharpestSigma * std::max(1.0, z.range_m));
   if (z.kind != SightingKind::kRange)
-    seen.R_bb = static_cast<float>(
-        std::max(z.kind == SightingKind::kBearing ? R(0, 0) : R(1, 1), kSharpestSigma * kSharpestSigma));
+    seen.R_bb = variance(z.kind == SightingKind::kBearing ? 0 : 1, to_radians(e.shared_bearing_sigma_deg),
+                         to_radians(e.lasting_bearing_sigma_deg), kSharpestSigma);
+  if (z.kind == SightingKind::kRangeBearing)
+    seen.R_rb = static_cast<float>(options_.noise_inflation * options_.noise_inflation *
+                                   (*observation.covariance)(0, 1));
   return seen;
 }
 
-/// Collects the sightings of known landmarks that the set as a whole expected: a gate on each particle would
-/// let those starve that the odometry happened to lead astray. Each is judged by itself, before any of them
-/// moves or weighs a particle, so their order does not matter.
+/// Finds the sightings of known landmarks that the set as a whole expected: a gate on each particle would let
+/// those starve that the odometry happened to lead astray. Each is judged by itself, before any of them moves
+/// or weighs a particle, so their order does not matter.
 void FastSlam::compare(std::span<const Observation> observations) {
+  gate_sample_.load(particles_, estimate_.T_world_robot.position());
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) judge(observations[i], i);
+  if (is_lost()) widen(observations);
   accepted_.clear();
-  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
-  const kernels::Increment increment = fastslam::increment_of(pending_);
-  gate_sample_.load(particles_, origin_m);
+  const std::int64_t moves = moves_;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
-    const int landmark = matched_landmark(i);
-    store_.touch(landmark);
-    const kernels::Sighting sighting{seen(observations[i]), mount_, store_.view(landmark, origin_m)};
-    judge(gate_sample_.compare(sighting, increment), dimension(sighting.seen.kind), innovations_[i]);
-    if (innovations_[i].outcome != Outcome::kMatched) continue;
-    const bool shapes = options_.proposal == ProposalKind::kSightings && store_.modes(landmark) == 1;
-    accepted_.push_back({sighting, evidence(landmark), shapes});
-    count_sighting(landmark);
+    // What was compared before another sighting moved the particles is compared again.
+    if (moves_ != moves) moments_[i] = compare(observations[i], matched_landmark(i));
+    accept(observations[i], innovations_[i], moments_[i]);
   }
+}
+
+fastslam::InnovationMoments FastSlam::compare(const Observation& observation, int landmark) {
+  return gate_sample_.compare(sighting(observation, landmark), fastslam::increment_of(pending_));
+}
+
+kernels::Sighting FastSlam::sighting(const Observation& observation, int landmark) const {
+  return {seen(observation, way_since_m(landmark)), mount_,
+          store_.view(landmark, estimate_.T_world_robot.position())};
+}
+
+/// NIS of the mixture: mean and covariance of the innovation over all particles.
+void FastSlam::judge(const Observation& observation, std::size_t index) {
+  const int landmark = matched_landmark(index);
+  store_.touch(landmark);
+  moments_[index] = compare(observation, landmark);
+  const Eigen::Vector2d& nu = moments_[index].mean;
+  const Eigen::Matrix2d S = moments_[index].covariance();
+  const int dof = dimension(measured(observation.value)->kind);
+  const auto nis = dof == 2 ? mahalanobis_squared<2>(nu, S)
+                            : mahalanobis_squared<1>(nu.head<1>(), S.topLeftCorner<1, 1>());
+  Innovation& innovation = innovations_[index];
+  innovation.dof = nis ? dof : 0;
+  innovation.nis = nis.value_or(0.0);
+  innovation.gate = gate_.threshold(dof);
+  innovation.outcome = !nis                     ? Outcome::kUnusable
+                       : *nis > innovation.gate ? Outcome::kGated
+                                                : Outcome::kMatched;
+}
+
+bool FastSlam::is_lost() {
+  for (const Innovation& innovation : innovations_) {
+    if (innovation.outcome == Outcome::kMatched) gated_in_a_row_ = 0;
+    if (innovation.outcome == Outcome::kGated) ++gated_in_a_row_;
+  }
+  return gated_in_a_row_ >= kMostGatedInARow && mostly_gated();
+}
+
+bool FastSlam::mostly_gated() const {
+  const auto count = [this](Outcome outcome) {
+    return std::ranges::count(innovations_, outcome, &Innovation::outcome);
+  };
+  return count(Outcome::kGated) > count(Outcome::kMatched);
+}
+
+/// The robot slipped as its odometry says it never does: the motion that is still to be drawn is made less
+/// sure, step by step, until most of what is seen can be believed.
+void FastSlam::widen(std::span<const Observation> observations) {
+  ++slips_;
+  gated_in_a_row_ = 0;
+  moved_ = true;
+  Motion slip;
+  slip.covariance = kSmallestSlip.cwiseAbs2().asDiagonal();
+  for (int doublings = 0; doublings < kMostDoublings && mostly_gated(); ++doublings) {
+    pending_ = compose(pending_, slip);
+    slip.covariance *= 4.0;
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (innovations_[i].outcome == Outcome::kGated) judge(observations[i], i);
+  }
+}
+
+void FastSlam::accept(const Observation& observation, const Innovation& innovation,
+                      const fastslam::InnovationMoments& moments) {
+  const int landmark = *index_.find(innovation.landmark);
+  const bool one_mode = store_.modes(landmark) == 1;
+  const bool is_taken = one_mode && move_by(observation, landmark, moments);
+  const bool shapes = one_mode && options_.proposal == ProposalKind::kSightings;
+  accepted_.push_back({sighting(observation, landmark), is_taken ? 0.0 : evidence(landmark), shapes});
+  count_sighting(landmark);
+}
+
+/// A sighting of a landmark that comes back, where particles disagree on what they see, moves them; then it
+/// does not weigh them.
+bool FastSlam::move_by(const Observation& observation, int landmark, fastslam::InnovationMoments moments) {
+  const double news = evidence(landmark);
+  if (way_since_m(landmark) < kLeastWay_m || news < kLeastNews) return false;
+  const double spread_above = options_.move_above * particles_.count() / kParticlesOfMoveAbove;
+  const kernels::Increment increment = fastslam::increment_of(pending_);
+  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
+  const auto kind = measured(observation.value)->kind;
+  const std::int64_t moves = moves_;
+  for (int k = 0; k < dimension(kind); ++k) {
+    if (!(news * moments.spread(k, k) > spread_above * moments.noise(k, k))) continue;
+    const kernels::Sighting z = sighting(observation, landmark);
+    const bool bearing = kind == SightingKind::kBearing || k == 1;
+    move_.take_in(z, bearing, moments.noise(k, k) / news, increment, origin_m, particles_, store_);
+    ++moves_;
+    gate_sample_.load(particles_, origin_m);
+    moments = gate_sample_.compare(z, increment);
+  }
+  return moves_ != moves;
 }
 
 int FastSlam::matched_landmark(std::size_t index) const { return *index_.find(innovations_[index].landmark); }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
 double FastSlam::evidence(int landmark) const {
-  const double way_m = way_m_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_way_m;
-  return options_.evidence_way_m > 0.0 ? -std::expm1(-way_m / options_.evidence_way_m) : 1.0;
+  return options_.evidence_way_m > 0.0 ? -std::expm1(-way_since_m(landmark) / options_.evidence_way_m) : 1.0;
+}
+
+double FastSlam::way_since_m(int landmark) const {
+  return way_m_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_way_m;
 }
 
 void FastSlam::count_sighting(int landmark) {
   Landmark& sighted = landmarks_[static_cast<std::size_t>(landmark)];
   ++sighted.observations;
   sighted.seen_at_way_m = way_m_;
-}
-
-/// NIS of the mixture: mean and covariance of the innovation over all particles.
-void FastSlam::judge(const fastslam::InnovationMoments& m, int dof, Innovation& innovation) {
-  const auto nis = dof == 2 ? mahalanobis_squared<2>(m.mean, m.covariance)
-                            : mahalanobis_squared<1>(m.mean.head<1>(), m.covariance.topLeftCorner<1, 1>());
-  innovation.dof = nis ? dof : 0;
-  innovation.nis = nis.value_or(0.0);
-  innovation.gate = gate_.threshold(dof);
-  if (!nis) {
-    innovation.outcome = Outcome::kUnusable;
-    return;
-  }
-  gated_in_a_row_ = *nis > innovation.gate ? gated_in_a_row_ + 1 : 0;
-  if (gated_in_a_row_ > 0 && gated_in_a_row_ <= kMostGatedInARow) innovation.outcome = Outcome::kGated;
 }
 
 void FastSlam::weigh() {
@@ -314,7 +420,7 @@ void FastSlam::resample() {
 void FastSlam::add(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kAdded) continue;
-    const SeenLandmark z = seen(observations[i]);
+    const SeenLandmark z = seen(observations[i], std::numeric_limits<double>::infinity());
     const bool guess = options_.init == LandmarkStart::kGuess && z.kind != SightingKind::kRangeBearing;
     const fastslam::FirstForm first = guess ? fastslam::FirstForm{} : fastslam::first_form(z, sensor_);
     const int landmark = store_.add(first.form, estimate_.T_world_robot.position(), first.modes);

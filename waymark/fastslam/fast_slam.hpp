@@ -7,6 +7,7 @@
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/fastslam/ensemble_move.hpp"
 #include "waymark/fastslam/gate_sample.hpp"
 #include "waymark/fastslam/landmark_forms.hpp"
 #include "waymark/fastslam/landmark_store.hpp"
@@ -34,6 +35,7 @@ struct FastSlamOptions {
   int particles = 150;
   double resample_below = 0.5;   ///< resample when N_eff falls below this part of the particles
   double temper_below = 0.1;     ///< flatten weights when N_eff would fall below this part of the particles
+  double move_above = 0.01;      ///< move 100 particles where expectations vary by more of their noise
   double evidence_way_m = 1.0;   ///< way between two sightings of a landmark that makes the second one news
   double noise_inflation = 1.0;  ///< on the standard deviations of observations
   int capacity = 1000;           ///< most landmarks in the map
@@ -78,6 +80,10 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::Particles& particles() const { return particles_; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resamplings_; }
+  /// How often a sighting moved the particles instead of weighing them.
+  [[nodiscard]] std::int64_t moves() const { return moves_; }
+  /// How often the robot must have slipped far beyond its odometry: see correct().
+  [[nodiscard]] std::int64_t slips() const { return slips_; }
 
  private:
   struct Landmark {
@@ -89,7 +95,15 @@ class FastSlam final : public Filter {
   void associate(std::span<const Observation> observations);
   [[nodiscard]] Outcome screen(std::size_t index, const Observation& observation) const;
   void compare(std::span<const Observation> observations);
-  void judge(const fastslam::InnovationMoments& moments, int dof, Innovation& innovation);
+  void judge(const Observation& observation, std::size_t index);
+  [[nodiscard]] fastslam::InnovationMoments compare(const Observation& observation, int landmark);
+  [[nodiscard]] bool is_lost();
+  [[nodiscard]] bool mostly_gated() const;
+  void widen(std::span<const Observation> observations);
+  void accept(const Observation& observation, const Innovation& innovation,
+              const fastslam::InnovationMoments& moments);
+  [[nodiscard]] bool move_by(const Observation& observation, int landmark,
+                             fastslam::InnovationMoments moments);
   void move_particles();
   void count_sighting(int landmark);
   void weigh();
@@ -98,7 +112,9 @@ class FastSlam final : public Filter {
   void add(std::span<const Observation> observations);
   void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess);
 
-  [[nodiscard]] kernels::SeenLandmark seen(const Observation& observation) const;
+  [[nodiscard]] kernels::Sighting sighting(const Observation& observation, int landmark) const;
+  [[nodiscard]] kernels::SeenLandmark seen(const Observation& observation, double way_since_m) const;
+  [[nodiscard]] double way_since_m(int landmark) const;
   [[nodiscard]] double evidence(int landmark) const;
   [[nodiscard]] bool any(Outcome outcome) const;
   [[nodiscard]] int matched_landmark(std::size_t index) const;
@@ -116,6 +132,7 @@ class FastSlam final : public Filter {
   fastslam::Particles particles_;
   fastslam::LandmarkStore store_;
   fastslam::GateSample gate_sample_;
+  fastslam::EnsembleMove move_;
   std::vector<fastslam::AcceptedSighting> accepted_;
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;
@@ -128,8 +145,11 @@ class FastSlam final : public Filter {
   std::uint64_t step_ = 0;
   std::int64_t resamplings_ = 0;
   int gated_in_a_row_ = 0;
+  std::int64_t slips_ = 0;
+  std::int64_t moves_ = 0;
 
   std::vector<Innovation> innovations_;
+  std::vector<fastslam::InnovationMoments> moments_;  // of the matched ones, beside innovations_
   Correction correction_;
   FunctionBlocks table_{"associate", "compare", "update", "estimate", "resample", "add"};
 };

@@ -1,7 +1,6 @@
 #include "waymark/fastslam/gate_sample.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace waymark::fastslam {
 namespace {
@@ -21,21 +20,30 @@ kernels::About about_first(const kernels::Sighting& sighting, const kernels::Inc
   alignas(64) constexpr std::array<double, kernels::kParticleLanes> kOnlyTheFirst{1.0};
   const InnovationSums first =
       kernels::compare_sighting(sighting, increment, poses, {}, kOnlyTheFirst.data(), {0, 1});
-  if (!(first[0] > 0.0)) return {};
-  return {static_cast<float>(first[1] / first[0]), static_cast<float>(first[2] / first[0])};
+  if (!(first.w > 0.0)) return {};
+  return {static_cast<float>(first.nu[0] / first.w), static_cast<float>(first.nu[1] / first.w)};
+}
+
+Eigen::Matrix2d symmetric(const std::array<double, 3>& sums, double w) {
+  return Eigen::Matrix2d{{sums[0], sums[1]}, {sums[1], sums[2]}} / w;
 }
 
 InnovationMoments moments_of(const InnovationSums& sums, const kernels::About& about, SightingKind kind) {
-  const double w = sums[0];
-  const Eigen::Vector2d shift(sums[1] / w, sums[2] / w);
-  const Eigen::Matrix2d second{{sums[3] / w, sums[4] / w}, {sums[4] / w, sums[5] / w}};
+  const Eigen::Vector2d shift(sums.nu[0] / sums.w, sums.nu[1] / sums.w);
   InnovationMoments moments{Eigen::Vector2d(about.range, about.bearing) + shift,
-                            second - shift * shift.transpose()};
+                            symmetric(sums.nu_nu, sums.w) - shift * shift.transpose(),
+                            symmetric(sums.L, sums.w)};
   if (kind == SightingKind::kBearing) {
-    std::swap(moments.mean[0], moments.mean[1]);
-    std::swap(moments.covariance(0, 0), moments.covariance(1, 1));
+    moments.mean[0] = moments.mean[1];
+    moments.spread(0, 0) = moments.spread(1, 1);
+    moments.noise(0, 0) = moments.noise(1, 1);
   }
   return moments;
+}
+
+template <std::size_t N>
+void add(std::array<double, N>& sum, const std::array<double, N>& terms) {
+  for (std::size_t k = 0; k < N; ++k) sum[k] += terms[k];
 }
 
 }  // namespace
@@ -62,7 +70,10 @@ InnovationMoments GateSample::compare(const kernels::Sighting& sighting,
     const ParticleRange range{begin, std::min(kPiece, weights_.size() - begin)};
     const InnovationSums part =
         kernels::compare_sighting(sighting, increment, columns(begin), about, weights_.data() + begin, range);
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += part[k];
+    sums.w += part.w;
+    add(sums.nu, part.nu);
+    add(sums.nu_nu, part.nu_nu);
+    add(sums.L, part.L);
   }
   return moments_of(sums, about, sighting.seen.kind);
 }

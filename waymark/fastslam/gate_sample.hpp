@@ -10,11 +10,15 @@
 
 namespace waymark::fastslam {
 
-/// Mean and covariance of an innovation over particles: (range, bearing), or in the first component what
-/// alone was measured. Not finite if any particle's is not.
+/// An innovation over particles: (range, bearing), or in the first component what alone was measured. Not
+/// finite if any particle's is not.
 struct InnovationMoments {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();  ///< of the particles' innovations about the mean
+  Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();   ///< mean of the particles' own innovation covariances
+
+  /// Of the mixture of the particles' Gaussians.
+  [[nodiscard]] Eigen::Matrix2d covariance() const { return spread + noise; }
 };
 
 /// A part of the particles, large enough to tell what the whole set expects to see: the first 1024 at most.
@@ -26,7 +30,7 @@ class GateSample {
   void load(const Particles& particles, const Eigen::Vector2d& origin_m);
 
   /// How a sighting compares with what the loaded particles expect when all make the same increment, which is
-  /// still to be drawn: the moments of the mixture of the particles' Gaussians.
+  /// still to be drawn.
   [[nodiscard]] InnovationMoments compare(const kernels::Sighting& sighting,
                                           const kernels::Increment& increment);
 

@@ -7,15 +7,16 @@ using kernels::ParticleRange;
 
 constexpr float narrow(double value) { return static_cast<float>(value); }
 
-void draw_block(Particles& particles, const StreamKey& key, BlockScratch& scratch, ParticleRange range) {
+void draw_block(Particles& particles, const kernels::Increment& increment, const StreamKey& key,
+                BlockScratch& scratch, ParticleRange range) {
   const kernels::DrawKey draw{key.seed, static_cast<std::uint32_t>(key.purpose), key.step,
                               static_cast<std::uint32_t>(range.begin)};
   float* const n0 = scratch.normals(0);
   float* const n1 = scratch.normals(1);
   float* const n2 = scratch.normals(2);
   kernels::draw_normals(draw, n0, n1, n2, range.count);
-  kernels::draw_poses(scratch.increments(), n0, n1, n2, scratch.robots(), particles.moving(range.begin),
-                      range.count);
+  kernels::draw_poses(scratch.increments(), increment, n0, n1, n2, scratch.robots(),
+                      particles.moving(range.begin), range.count);
 }
 
 void update_block(std::span<const AcceptedSighting> sightings, double* log_weight, BlockScratch& scratch,
@@ -34,7 +35,12 @@ void update_block(std::span<const AcceptedSighting> sightings, double* log_weigh
 
 kernels::Increment increment_of(const Motion& motion) {
   const Pose2& d = motion.increment;
-  const Eigen::Matrix3f P = motion.covariance.cast<float>();
+  // The motion's covariance is that of its end. A deviation (x, y, theta) there is one of s = deviation about
+  // the start: a turn theta moves the end by theta (-d_y, d_x), which is no deviation of s in place.
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+  A(0, 2) = d.y_m;
+  A(1, 2) = -d.x_m;
+  const Eigen::Matrix3f P = (A * motion.covariance * A.transpose()).cast<float>();
   return {narrow(d.x_m), narrow(d.y_m), narrow(d.theta_rad), P(0, 0), P(0, 1), P(0, 2), P(1, 1),
           P(1, 2),       P(2, 2)};
 }
@@ -51,9 +57,9 @@ void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& ori
     kernels::fill_increments(increment, scratch.increments(), range.count);
     for (const AcceptedSighting& each : sightings)
       if (each.shapes_motion)
-        kernels::condition_increments(each.sighting, scratch.robots(), each.evidence, scratch.increments(),
-                                      log_weight, range);
-    if (moves) draw_block(particles, key, scratch, range);
+        kernels::condition_increments(each.sighting, increment, scratch.robots(), each.evidence,
+                                      scratch.increments(), log_weight, range);
+    if (moves) draw_block(particles, increment, key, scratch, range);
     update_block(sightings, log_weight, scratch, range);
   });
 }

@@ -25,7 +25,10 @@ struct PoseColumns {
   float* sin = nullptr;
 };
 
-/// How each robot moved: a Gaussian in (x, y, theta), in the frame that the robot had before.
+/// How each robot's motion differed from the expected one: it moved by s * d, with d the increment that all
+/// expected and s a Gaussian in (x, y, theta), in the frame that the robot had before. A robot that did not
+/// know its heading from the start swings about that start: what is a banana in the place where it ends is a
+/// Gaussian in s.
 struct IncrementColumns {
   float* x = nullptr;
   float* y = nullptr;
@@ -38,7 +41,7 @@ struct IncrementColumns {
   float* tt = nullptr;
 };
 
-/// The increment that is the same for all particles before anything is seen.
+/// The expected increment d and the covariance of s, the same for all particles before anything is seen.
 struct Increment {
   float x = 0.0F;
   float y = 0.0F;

@@ -126,7 +126,8 @@ void normals_lanes(const DrawKey& key, float* n0, float* n1, float* n2, std::siz
 }
 
 void fill_lanes(const Increment& d, const IncrementColumns& increments, std::size_t count) {
-  const Gaussian3<Lanes> all{d.x, d.y, d.t, d.xx, d.xy, d.xt, d.yy, d.yt, d.tt};
+  const Lanes zero = 0.0F;
+  const Gaussian3<Lanes> all{zero, zero, zero, d.xx, d.xy, d.xt, d.yy, d.yt, d.tt};
   for (std::size_t i = 0; i < count; i += lane_count()) store_increment(all, increments, i);
 }
 
@@ -142,9 +143,9 @@ HWY_INLINE void add_to_world(const float* dx, const float* dy, const float* dt, 
 }
 
 template <class T>
-HWY_INLINE void draw_all(const IncrementColumns& increments, const float* n0, const float* n1,
-                         const float* n2, const PoseColumns& robots, const MovingPoses& world,
-                         std::size_t count) {
+HWY_INLINE void draw_all(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                         const float* n1, const float* n2, const PoseColumns& robots,
+                         const MovingPoses& world, std::size_t count) {
   alignas(64) float dx[kParticleLanes];
   alignas(64) float dy[kParticleLanes];
   alignas(64) float dt[kParticleLanes];
@@ -152,18 +153,20 @@ HWY_INLINE void draw_all(const IncrementColumns& increments, const float* n0, co
     const Pose<T> before = load_pose<T>(robots, i);
     const Column3<T> d =
         draw_from(load_increment<T>(increments, i), load<T>(n0, i), load<T>(n1, i), load<T>(n2, i));
-    const Pose<T> after = moved(before, d.x, d.y, d.t);
+    const Pose<T> swung = moved(before, d.x, d.y, d.t);
+    const Pose<T> after = moved(swung, T(expected.x), T(expected.y), T(expected.t));
     store_pose(after, robots, i);
-    store(before.c * d.x - before.s * d.y, dx, 0);
-    store(before.s * d.x + before.c * d.y, dy, 0);
-    store(d.t, dt, 0);
+    store(before.c * d.x - before.s * d.y + swung.c * T(expected.x) - swung.s * T(expected.y), dx, 0);
+    store(before.s * d.x + before.c * d.y + swung.s * T(expected.x) + swung.c * T(expected.y), dy, 0);
+    store(d.t + T(expected.t), dt, 0);
     add_to_world(dx, dy, dt, world, i, width_of<T>());
   }
 }
 
-void draw_lanes(const IncrementColumns& increments, const float* n0, const float* n1, const float* n2,
-                const PoseColumns& robots, const MovingPoses& world, std::size_t count) {
-  draw_all<Lanes>(increments, n0, n1, n2, robots, world, count);
+void draw_lanes(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                const float* n1, const float* n2, const PoseColumns& robots, const MovingPoses& world,
+                std::size_t count) {
+  draw_all<Lanes>(increments, expected, n0, n1, n2, robots, world, count);
 }
 
 }  // namespace waymark::kernels::HWY_NAMESPACE
@@ -196,9 +199,10 @@ void draw_normals(const DrawKey& key, float* n0, float* n1, float* n2, std::size
   HWY_DYNAMIC_DISPATCH(normals_lanes)(key, n0, n1, n2, count);
 }
 
-void draw_poses(const IncrementColumns& increments, const float* n0, const float* n1, const float* n2,
-                const PoseColumns& robots, const MovingPoses& world, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(draw_lanes)(increments, n0, n1, n2, robots, world, count);
+void draw_poses(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                const float* n1, const float* n2, const PoseColumns& robots, const MovingPoses& world,
+                std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(draw_lanes)(increments, expected, n0, n1, n2, robots, world, count);
 }
 
 namespace reference {
@@ -208,9 +212,10 @@ void load_poses(const WorldPoses& world, double origin_x, double origin_y, const
   HWY_NAMESPACE::load_all<double>(world, origin_x, origin_y, poses, count);
 }
 
-void draw_poses(const IncrementColumns& increments, const float* n0, const float* n1, const float* n2,
-                const PoseColumns& robots, const MovingPoses& world, std::size_t count) {
-  HWY_NAMESPACE::draw_all<double>(increments, n0, n1, n2, robots, world, count);
+void draw_poses(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                const float* n1, const float* n2, const PoseColumns& robots, const MovingPoses& world,
+                std::size_t count) {
+  HWY_NAMESPACE::draw_all<double>(increments, expected, n0, n1, n2, robots, world, count);
 }
 
 }  // namespace reference

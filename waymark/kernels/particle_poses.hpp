@@ -30,7 +30,7 @@ void load_poses(const WorldPoses& world, double origin_x, double origin_y, const
 void place_sensors(const PoseColumns& robots, const SensorMount& mount, const PoseColumns& sensors,
                    std::size_t count);
 
-/// The same increment for all.
+/// Every motion as expected, with the same covariance.
 void fill_increments(const Increment& increment, const IncrementColumns& increments, std::size_t count);
 
 /// Which random numbers to draw: those of the stream (seed, purpose, step), particle by particle from
@@ -46,15 +46,17 @@ struct DrawKey {
 /// the key and i alone. Tails end at 6.6 sigma.
 void draw_normals(const DrawKey& key, float* n0, float* n1, float* n2, std::size_t count);
 
-/// Moves each robot by a draw mu + L n from its increment, P = L L^T of any rank: the world poses and the
-/// columns.
-void draw_poses(const IncrementColumns& increments, const float* n0, const float* n1, const float* n2,
-                const PoseColumns& robots, const MovingPoses& world, std::size_t count);
+/// Moves each robot by s * d with s a draw mu + L n from its increments, P = L L^T of any rank, and d the
+/// expected increment: the world poses and the columns.
+void draw_poses(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                const float* n1, const float* n2, const PoseColumns& robots, const MovingPoses& world,
+                std::size_t count);
 
 namespace reference {
 void load_poses(const WorldPoses& world, double origin_x, double origin_y, const PoseColumns& poses,
                 std::size_t count);
-void draw_poses(const IncrementColumns& increments, const float* n0, const float* n1, const float* n2,
-                const PoseColumns& robots, const MovingPoses& world, std::size_t count);
+void draw_poses(const IncrementColumns& increments, const Increment& expected, const float* n0,
+                const float* n1, const float* n2, const PoseColumns& robots, const MovingPoses& world,
+                std::size_t count);
 }  // namespace reference
 }  // namespace waymark::kernels

@@ -176,50 +176,108 @@ HWY_INLINE Compared<T> compare(const Look1<T>& l, const Sensor<T>&, const Pose<T
 }
 
 // Sums of lanes; a particle or a hypothesis without weight adds nothing, whatever its numbers are.
+constexpr int kTerms = 9;
+
 template <class T>
 struct Sums {
-  T terms[6];
+  T terms[kTerms];
 
-  HWY_INLINE void add(const Compared<T>& c, const About& about, T weight) {
-    const T nu_r = c.nu_r - T(about.range);
-    const T nu_b = wrapped(c.nu_b - T(about.bearing));
-    const T values[6] = {T(1.0F), nu_r, nu_b, c.rr + nu_r * nu_r, c.rb + nu_r * nu_b, c.bb + nu_b * nu_b};
-    for (int k = 0; k < 6; ++k)
+  HWY_INLINE void add(const Compared<T>& c, T nu_r, T nu_b, T weight) {
+    const T values[kTerms] = {T(1.0F), nu_r, nu_b, nu_r * nu_r, nu_r * nu_b, nu_b * nu_b, c.rr, c.rb, c.bb};
+    for (int k = 0; k < kTerms; ++k)
       terms[k] = terms[k] + where_less(T(0.0F), weight, weight * values[k], T(0.0F));
   }
   [[nodiscard]] HWY_INLINE InnovationSums total() const {
-    InnovationSums sums{};
-    for (std::size_t k = 0; k < 6; ++k) sums[k] = sum_of(terms[k]);
-    return sums;
+    const auto term = [this](int k) HWY_ATTR { return sum_of(terms[k]); };
+    return {term(0), {term(1), term(2)}, {term(3), term(4), term(5)}, {term(6), term(7), term(8)}};
   }
 };
 
+// What a sensor sees from a robot that moves by an increment, it sees from before if it sits at the end of
+// it.
+HWY_INLINE Sighting carried(const Sighting& sighting, const Increment& d) {
+  Sighting s = sighting;
+  const float c = std::cos(d.t);
+  const float sine = std::sin(d.t);
+  const auto turn = [c, sine](float& x, float& y) HWY_ATTR {
+    const float turned = c * x - sine * y;
+    y = sine * x + c * y;
+    x = turned;
+  };
+  turn(s.mount.x, s.mount.y);
+  turn(s.mount.cos_yaw, s.mount.sin_yaw);
+  turn(s.seen.cos_bearing, s.seen.sin_bearing);
+  s.mount.x += d.x;
+  s.mount.y += d.y;
+  return s;
+}
+
 template <class T, class Way>
-HWY_INLINE InnovationSums compare_range(const Sighting& s, const Increment& increment,
+HWY_INLINE InnovationSums compare_range(const Sighting& sighting, const Increment& increment,
                                         const PoseColumns& before, const About& about, const double* weight,
                                         ParticleRange range) {
-  const Gaussian3<T> d{T(increment.x),  T(increment.y),  T(increment.t),  T(increment.xx), T(increment.xy),
-                       T(increment.xt), T(increment.yy), T(increment.yt), T(increment.tt)};
+  const Sighting s = carried(sighting, increment);
   const T zero = T(0.0F);
-  Sums<T> sums{{zero, zero, zero, zero, zero, zero}};
+  const Gaussian3<T> d{zero,
+                       zero,
+                       zero,
+                       T(increment.xx),
+                       T(increment.xy),
+                       T(increment.xt),
+                       T(increment.yy),
+                       T(increment.yt),
+                       T(increment.tt)};
+  Sums<T> sums{{zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const Pose<T> pose = load_pose<T>(before, i);
-    const Sensor<T> from = sensor_of(moved(pose, d.x, d.y, d.t), s.mount);
+    const Sensor<T> from = sensor_of(pose, s.mount);
     const T w = load_weight<T>(weight, i);
     for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
       const LandmarkMode& mode = s.landmark.modes[k];
       const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, range.begin + i);
       const T part =
           s.landmark.mode_count == 1 ? w : w * exponential(load<T>(mode.log_weight, range.begin + i));
-      sums.add(compare(Way::look(s, from, m, range.begin + i), from, pose, d, m, s.seen.kind), about, part);
+      const Compared<T> c = compare(Way::look(s, from, m, range.begin + i), from, pose, d, m, s.seen.kind);
+      sums.add(c, c.nu_r - T(about.range), wrapped(c.nu_b - T(about.bearing)), part);
     }
   }
   return sums.total();
 }
 
+template <class T>
+struct Polar {
+  T range, bearing;
+};
+
+template <class T>
+HWY_INLINE Polar<T> innovation(const Look2<T>& l, SightingKind) {
+  return {l.nu_a, l.nu_t * l.ray.inverse_r};
+}
+template <class T>
+HWY_INLINE Polar<T> innovation(const Look1<T>& l, SightingKind kind) {
+  const T zero = T(0.0F);
+  if (kind == SightingKind::kRange) return {l.nu, zero};
+  return {zero, l.nu};
+}
+
 template <class T, class Way>
-HWY_INLINE void condition_range(const Sighting& s, const PoseColumns& before, double evidence,
+HWY_INLINE void list_range(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                           const About& about, float* nu_r, float* nu_b, ParticleRange range) {
+  const Sighting s = carried(sighting, increment);
+  for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
+    const Sensor<T> from = sensor_of(load_pose<T>(before, i), s.mount);
+    const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
+    const Polar<T> nu = innovation(Way::look(s, from, m, range.begin + i), s.seen.kind);
+    store(nu.range - T(about.range), nu_r, i);
+    store(wrapped(nu.bearing - T(about.bearing)), nu_b, i);
+  }
+}
+
+template <class T, class Way>
+HWY_INLINE void condition_range(const Sighting& sighting, const Increment& expected,
+                                const PoseColumns& before, double evidence,
                                 const IncrementColumns& increments, double* log_weight, ParticleRange range) {
+  const Sighting s = carried(sighting, expected);
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const Pose<T> pose = load_pose<T>(before, i);
     const Gaussian3<T> d = load_increment<T>(increments, i);
@@ -367,10 +425,19 @@ HWY_INLINE InnovationSums compare_as(const Sighting& s, const Increment& increme
 }
 
 template <class T>
-HWY_INLINE void condition_as(const Sighting& s, const PoseColumns& before, double evidence,
-                             const IncrementColumns& increments, double* log_weight, ParticleRange range) {
+HWY_INLINE void list_as(const Sighting& s, const Increment& increment, const PoseColumns& before,
+                        const About& about, float* nu_r, float* nu_b, ParticleRange range) {
   choose_way(s, [&](auto way) HWY_ATTR {
-    condition_range<T, decltype(way)>(s, before, evidence, increments, log_weight, range);
+    list_range<T, decltype(way)>(s, increment, before, about, nu_r, nu_b, range);
+  });
+}
+
+template <class T>
+HWY_INLINE void condition_as(const Sighting& s, const Increment& expected, const PoseColumns& before,
+                             double evidence, const IncrementColumns& increments, double* log_weight,
+                             ParticleRange range) {
+  choose_way(s, [&](auto way) HWY_ATTR {
+    condition_range<T, decltype(way)>(s, expected, before, evidence, increments, log_weight, range);
   });
 }
 
@@ -387,9 +454,14 @@ InnovationSums compare_lanes(const Sighting& s, const Increment& increment, cons
   return compare_as<Lanes>(s, increment, before, about, weight, range);
 }
 
-void condition_lanes(const Sighting& s, const PoseColumns& before, double evidence,
+void list_lanes(const Sighting& s, const Increment& increment, const PoseColumns& before, const About& about,
+                float* nu_r, float* nu_b, ParticleRange range) {
+  list_as<Lanes>(s, increment, before, about, nu_r, nu_b, range);
+}
+
+void condition_lanes(const Sighting& s, const Increment& expected, const PoseColumns& before, double evidence,
                      const IncrementColumns& increments, double* log_weight, ParticleRange range) {
-  condition_as<Lanes>(s, before, evidence, increments, log_weight, range);
+  condition_as<Lanes>(s, expected, before, evidence, increments, log_weight, range);
 }
 
 void update_lanes(const Sighting& s, const PoseColumns& sensors, double evidence, double* log_weight,
@@ -409,6 +481,7 @@ HWY_AFTER_NAMESPACE();
 namespace waymark::kernels {
 
 HWY_EXPORT(compare_lanes);
+HWY_EXPORT(list_lanes);
 HWY_EXPORT(condition_lanes);
 HWY_EXPORT(update_lanes);
 HWY_EXPORT(place_lanes);
@@ -419,9 +492,15 @@ InnovationSums compare_sighting(const Sighting& sighting, const Increment& incre
   return HWY_DYNAMIC_DISPATCH(compare_lanes)(sighting, increment, before, about, weight, range);
 }
 
-void condition_increments(const Sighting& sighting, const PoseColumns& before, double evidence,
-                          const IncrementColumns& increments, double* log_weight, ParticleRange range) {
-  HWY_DYNAMIC_DISPATCH(condition_lanes)(sighting, before, evidence, increments, log_weight, range);
+void list_innovations(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                      const About& about, float* nu_r, float* nu_b, ParticleRange range) {
+  HWY_DYNAMIC_DISPATCH(list_lanes)(sighting, increment, before, about, nu_r, nu_b, range);
+}
+
+void condition_increments(const Sighting& sighting, const Increment& expected, const PoseColumns& before,
+                          double evidence, const IncrementColumns& increments, double* log_weight,
+                          ParticleRange range) {
+  HWY_DYNAMIC_DISPATCH(condition_lanes)(sighting, expected, before, evidence, increments, log_weight, range);
 }
 
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
@@ -442,9 +521,15 @@ InnovationSums compare_sighting(const Sighting& sighting, const Increment& incre
   return HWY_NAMESPACE::compare_as<double>(sighting, increment, before, about, weight, range);
 }
 
-void condition_increments(const Sighting& sighting, const PoseColumns& before, double evidence,
-                          const IncrementColumns& increments, double* log_weight, ParticleRange range) {
-  HWY_NAMESPACE::condition_as<double>(sighting, before, evidence, increments, log_weight, range);
+void list_innovations(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                      const About& about, float* nu_r, float* nu_b, ParticleRange range) {
+  HWY_NAMESPACE::list_as<double>(sighting, increment, before, about, nu_r, nu_b, range);
+}
+
+void condition_increments(const Sighting& sighting, const Increment& expected, const PoseColumns& before,
+                          double evidence, const IncrementColumns& increments, double* log_weight,
+                          ParticleRange range) {
+  HWY_NAMESPACE::condition_as<double>(sighting, expected, before, evidence, increments, log_weight, range);
 }
 
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,

@@ -22,27 +22,38 @@ struct Sighting {
   LandmarkView landmark;
 };
 
-/// sum w (1, nu_r, nu_b, P_rr, P_rb, P_bb) over particles and hypotheses of weight w: nu the innovation less
-/// `about`, P = L + nu nu^T its second moment, with L = Hx P Hx^T + Hm Sigma Hm^T + R. A range alone fills
-/// the components r, a bearing alone the components b. Innovations of bearings are within half a turn of
-/// `about`.
-using InnovationSums = std::array<double, 6>;
+/// Sums over particles and hypotheses of weight w: of w, of w nu, of w nu nu^T and of w L, matrices as (rr,
+/// rb, bb). nu is the innovation less `about`, and within half a turn of it, L = Hx P Hx^T + Hm Sigma Hm^T +
+/// R its covariance. A range alone fills the components r, a bearing alone the components b.
+struct InnovationSums {
+  double w = 0.0;
+  std::array<double, 2> nu{};
+  std::array<double, 3> nu_nu{};
+  std::array<double, 3> L{};
+};
 
 struct About {
   float range = 0.0F;
   float bearing = 0.0F;
 };
 
-/// How the sighting compares with what is expected when every robot makes the same increment.
+/// How the sighting compares with what is expected of robots that stood at `before` and then moved by the
+/// increment.
 InnovationSums compare_sighting(const Sighting& sighting, const Increment& increment,
                                 const PoseColumns& before, const About& about, const double* weight,
                                 ParticleRange range);
 
+/// The innovations of each particle, less `about`: of range and of bearing, 0 where it is not measured. Not
+/// for landmarks of several hypotheses.
+void list_innovations(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                      const About& about, float* nu_r, float* nu_b, ParticleRange range);
+
 /// What the sighting tells of the increments of robots that stood at `before` (Montemerlo et al. 2003): with
 /// nu, L as above, mu += K nu, P -= K L K^T, K = P Hx^T L^-1, and log_weight += evidence log N(nu; 0, L) but
 /// for its constant. Not for landmarks of several hypotheses.
-void condition_increments(const Sighting& sighting, const PoseColumns& before, double evidence,
-                          const IncrementColumns& increments, double* log_weight, ParticleRange range);
+void condition_increments(const Sighting& sighting, const Increment& expected, const PoseColumns& before,
+                          double evidence, const IncrementColumns& increments, double* log_weight,
+                          ParticleRange range);
 
 /// The EKF update of the landmark (Montemerlo et al. 2002) seen from `sensors` (their headings the robots'),
 /// and log_weight += evidence log N(nu; 0, Z) but for its constant, Z = Hm Sigma Hm^T + R; `log_weight` may
@@ -68,8 +79,11 @@ namespace reference {
 InnovationSums compare_sighting(const Sighting& sighting, const Increment& increment,
                                 const PoseColumns& before, const About& about, const double* weight,
                                 ParticleRange range);
-void condition_increments(const Sighting& sighting, const PoseColumns& before, double evidence,
-                          const IncrementColumns& increments, double* log_weight, ParticleRange range);
+void list_innovations(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                      const About& about, float* nu_r, float* nu_b, ParticleRange range);
+void condition_increments(const Sighting& sighting, const Increment& expected, const PoseColumns& before,
+                          double evidence, const IncrementColumns& increments, double* log_weight,
+                          ParticleRange range);
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range);
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,

@@ -1,0 +1,129 @@
+#include "waymark/fastslam/ensemble_move.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "waymark/core/random.hpp"
+
+namespace waymark::fastslam {
+namespace {
+
+using kernels::LandmarkForm;
+using kernels::SightingKind;
+
+constexpr int kCount = 2000;
+constexpr double kSigma = 0.3;  // of the robots' places along x
+constexpr float kWorld = 1000.0F;
+
+struct Moments {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+/// Robots that look along x at a landmark whose place all know; some landmarks moved with the robot that saw
+/// them, another has nothing to do with it.
+class EnsembleMoveTest : public testing::Test {
+ protected:
+  EnsembleMoveTest() {
+    store_.add(LandmarkForm::kPoint, origin_m_);  // 0: seen, known
+    store_.add(LandmarkForm::kPoint, origin_m_);  // 1: moved with the robot
+    store_.add(LandmarkForm::kPoint, origin_m_);  // 2: independent
+    store_.add(LandmarkForm::kRay, origin_m_);    // 3: its anchor moved with the robot
+    RandomStream random(1, StreamPurpose::kWorld);
+    for (int i = 0; i < kCount; ++i) {
+      const double x = kSigma * random.normal();
+      particles_.set_pose(i, {kWorld + x, 0.0, 0.0});
+      set(0, i, 5.0);
+      set(1, i, 2.0 + 0.5 * x);
+      set(2, i, 7.0 + 0.2 * random.normal());
+      set(3, i, 0.1);
+      store_.view(3, origin_m_).anchor_x[i] = static_cast<float>(x);
+    }
+  }
+
+  void set(int landmark, int i, double a) {
+    const auto& m = store_.view(landmark, origin_m_).modes->gaussian;
+    m.a[i] = static_cast<float>(a);
+    m.aa[i] = m.bb[i] = 1e-4F;
+  }
+
+  void see(float range_m, double noise) {
+    const kernels::Sighting sighting{{SightingKind::kRange, range_m}, {}, store_.view(0, origin_m_)};
+    move_.take_in(sighting, false, noise, {}, origin_m_, particles_, store_);
+  }
+
+  template <class Value>
+  [[nodiscard]] Moments moments(const Value& value) const {
+    Moments m;
+    for (int i = 0; i < kCount; ++i) m.mean += value(i) / kCount;
+    for (int i = 0; i < kCount; ++i) m.variance += std::pow(value(i) - m.mean, 2) / kCount;
+    return m;
+  }
+  [[nodiscard]] Moments robot_x() const {
+    return moments([this](int i) { return particles_.pose(i).x_m - kWorld; });
+  }
+  [[nodiscard]] Moments landmark_x(int k) const {
+    return moments([this, k](int i) { return store_.at(k, i).mean.x() - kWorld; });
+  }
+
+  Eigen::Vector2d origin_m_{kWorld, 0.0};
+  ParticleBlocks blocks_{kCount};
+  Particles particles_{kCount, {}};
+  LandmarkStore store_{blocks_};
+  EnsembleMove move_{blocks_};
+};
+
+TEST_F(EnsembleMoveTest, MovesMeansAsTheKalmanFilterDoes) {
+  const Moments robot = robot_x();
+  const Moments landmark = landmark_x(1);
+  constexpr double kNoise = 0.04;
+  see(4.6F, kNoise);  // 0.4 nearer than a robot at 0 would be
+  const double gain = robot.variance / (robot.variance + kNoise);
+  EXPECT_NEAR(robot_x().mean, robot.mean + gain * (0.4 - robot.mean), 1e-3);
+  EXPECT_NEAR(landmark_x(1).mean, landmark.mean + 0.5 * gain * (0.4 - robot.mean), 1e-3);
+}
+
+TEST_F(EnsembleMoveTest, LeavesTheSpreadOfHalfTheGain) {
+  const Moments robot = robot_x();
+  constexpr double kNoise = 0.09;
+  see(5.0F, kNoise);
+  // (1 - K/2)^2 P, at least the posterior (1 - K) P.
+  const double gain = robot.variance / (robot.variance + kNoise);
+  EXPECT_NEAR(robot_x().variance, std::pow(1.0 - 0.5 * gain, 2) * robot.variance, 1e-3);
+}
+
+TEST_F(EnsembleMoveTest, LeavesAloneWhatHasNothingToDoWithIt) {
+  const Moments before = landmark_x(2);
+  see(4.0F, 1e-4);
+  EXPECT_NEAR(landmark_x(2).mean, before.mean, 0.02);
+  EXPECT_NEAR(landmark_x(2).variance, before.variance, 0.01 * before.variance);
+  EXPECT_EQ(particles_.pose(3).y_m, 0.0);
+  EXPECT_EQ(particles_.pose(3).theta_rad, 0.0);
+}
+
+TEST_F(EnsembleMoveTest, CarriesAnchorsAlong) {
+  see(4.6F, 1e-4);
+  const auto view = store_.view(3, origin_m_);
+  for (int i = 0; i < kCount; ++i) EXPECT_NEAR(view.anchor_x[i], particles_.pose(i).x_m - kWorld, 1e-3);
+  EXPECT_FLOAT_EQ(view.modes->gaussian.a[7], 0.1F);
+}
+
+TEST_F(EnsembleMoveTest, DoesNothingWithoutParticlesToCompare) {
+  for (int i = 3; i < kCount; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 0.0;
+  for (int i = 0; i < 3; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 1.0 / 3.0;
+  const Pose2 before = particles_.pose(0);
+  see(4.0F, 1e-4);
+  EXPECT_EQ(particles_.pose(0), before);
+}
+
+TEST_F(EnsembleMoveTest, DeadParticlesDoNotSpoilIt) {
+  auto weights = particles_.weights();
+  for (std::size_t i = 0; i < kCount; ++i) weights[i] = i % 2 == 0 ? 2.0 / kCount : 0.0;
+  for (int i = 1; i < kCount; i += 2) particles_.set_pose(i, {std::nan(""), 0.0, 0.0});
+  see(4.6F, 1e-4);
+  for (int i = 0; i < kCount; i += 2) EXPECT_NEAR(particles_.pose(i).x_m - kWorld, 0.4, 0.6);
+}
+
+}  // namespace
+}  // namespace waymark::fastslam
