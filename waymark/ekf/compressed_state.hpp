@@ -15,7 +15,7 @@ namespace waymark::ekf {
 /// How a large map is kept out of the way.
 struct Compression {
   int region = 64;  ///< landmarks in a region; more where so many are seen at once
-  int onset = 192;  ///< size of the map from which on it is done; the capacity of the map: never
+  int onset = 384;  ///< size of the map from which on it is done; the capacity of the map: never
 };
 
 /// The state of the whole map at the cost of a local one: the compressed filter of Guivant and Nebot (2001).

@@ -71,7 +71,7 @@ ekf::Compression compression(const EkfOptions& options) {
     case Compress::kAuto:
       break;
   }
-  return {options.region, 3 * options.region};
+  return {options.region, 6 * options.region};
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,

@@ -36,7 +36,7 @@ struct EkfOptions {
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };
 
-/// With kAuto a map is compressed when it is three times a region: below that it costs more than it saves.
+/// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
 [[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
 void describe(Schema& schema, EkfOptions& options);
