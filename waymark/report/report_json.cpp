@@ -6,6 +6,7 @@
 
 #include "waymark/report/decimate.hpp"
 #include "waymark/report/nis_histogram.hpp"
+#include "waymark/report/pages.hpp"
 
 namespace waymark {
 namespace {
@@ -165,20 +166,6 @@ Json to_json(const RunData& run) {
     json["alignment"] = {{"x_m", T.x_m}, {"y_m", T.y_m}, {"theta_rad", T.theta_rad}};
   }
   return json;
-}
-
-// `<` occurs in strings only. Unescaped, it could end the script element or begin a comment in it.
-std::string safe_in_script(const std::string& json) {
-  std::string safe;
-  safe.reserve(json.size() + 64);
-  for (const char c : json) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
 }
 
 }  // namespace
