@@ -305,7 +305,8 @@ PoseEstimate FastSlam::pose() const {
 /// Mean and covariance of the mixture: sum w (Sigma_i + d_i d_i^T), d_i = m_i - mean.
 LandmarkEstimate FastSlam::landmark(int index) const {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (int i = 0; i < particles_.count(); ++i) {
     const auto m = store_.at(index, i);
     mean += weights()[static_cast<std::size_t>(i)] * Eigen::Vector2d(m.x, m.y);
@@ -313,14 +314,17 @@ LandmarkEstimate FastSlam::landmark(int index) const {
   for (int i = 0; i < particles_.count(); ++i) {
     const auto m = store_.at(index, i);
     const Eigen::Vector2d d = Eigen::Vector2d(m.x, m.y) - mean;
-    covariance += weights()[static_cast<std::size_t>(i)] *
-                  (Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}} + d * d.transpose());
+    const double w = weights()[static_cast<std::size_t>(i)];
+    within += w * Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}};
+    spread += w * d * d.transpose();
   }
   LandmarkEstimate estimate;
   estimate.id = landmarks_[static_cast<std::size_t>(index)].id;
   estimate.observations = landmarks_[static_cast<std::size_t>(index)].observations;
   estimate.position_m.head<2>() = mean;
-  estimate.covariance.topLeftCorner<2, 2>() = covariance;
+  estimate.covariance.topLeftCorner<2, 2>() = within + spread;
+  estimate.within = Eigen::Matrix3d::Zero();
+  estimate.within->topLeftCorner<2, 2>() = within;
   return estimate;
 }
 

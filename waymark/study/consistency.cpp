@@ -118,4 +118,11 @@ ConsistencyResult study_consistency(ekf::Consistency mode, const ConsistencyOpti
   return result;
 }
 
+ConsistencyComparison compare_modes(const ConsistencyOptions& options, int threads) {
+  return {options,
+          {{"invariant", study_consistency(ekf::Consistency::kInvariant, options, threads)},
+           {"fej", study_consistency(ekf::Consistency::kFej, options, threads)},
+           {"standard", study_consistency(ekf::Consistency::kStandard, options, threads)}}};
+}
+
 }  // namespace waymark::study
