@@ -87,6 +87,12 @@ TEST(Compose, IsAssociativeAndKeepsCovariances) {
   }
 }
 
+TEST(Way, CountsTurnsToo) {
+  EXPECT_EQ(way_m(Motion{}), 0.0);
+  EXPECT_NEAR(way_m({{0.3, -0.4, 0.0}, {}}), 0.5, 1e-15);
+  EXPECT_NEAR(way_m({{0.3, -0.4, -1.0}, {}}), 0.8, 1e-15);
+}
+
 TEST(IsStill, OnlyWithoutMotionAndWithoutNoise) {
   EXPECT_TRUE(is_still(Motion{}));
   EXPECT_FALSE(is_still({{1e-12, 0.0, 0.0}, Eigen::Matrix3d::Zero()}));

@@ -19,11 +19,12 @@ class DenseFilter {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  DenseFilter(int dimension, ekf::Consistency consistency)
+  DenseFilter(int dimension, ekf::Consistency consistency, int error_pairs = 0)
       : dimension_(dimension),
+        head_(3 + 2 * error_pairs),
         consistency_(consistency),
-        x_(Vector::Zero(3)),
-        P_(Matrix::Zero(3, 3)),
+        x_(Vector::Zero(head_)),
+        P_(Matrix::Zero(head_, head_)),
         linearized_(Vector::Zero(3)) {}
 
   void predict(const Motion& motion) {
@@ -47,6 +48,14 @@ class DenseFilter {
     linearized_ = x_.head(3);
   }
 
+  void relax_errors(int pair, double rho) {
+    Matrix F = Matrix::Identity(size(), size());
+    F.block(3 + 2 * pair, 3 + 2 * pair, 2, 2) *= Scalar(rho);
+    x_ = (F * x_).eval();
+    P_ = (F * P_ * F.transpose()).eval();
+    for (int k = 0; k < 2; ++k) P_(3 + 2 * pair + k, 3 + 2 * pair + k) += 1 - Scalar(rho) * Scalar(rho);
+  }
+
   void update(std::span<const ekf::Sighting> sightings) {
     int rows = 0;
     for (const auto& s : sightings) rows += s.rows;
@@ -56,8 +65,9 @@ class DenseFilter {
     int row = 0;
     for (const auto& s : sightings) {
       H.block(row, 0, s.rows, 3) = s.H_pose.topRows(s.rows).cast<Scalar>();
-      H.block(row, 3 + dimension_ * s.landmark, s.rows, dimension_) =
+      H.block(row, head_ + dimension_ * s.landmark, s.rows, dimension_) =
           s.H_landmark.topLeftCorner(s.rows, dimension_).cast<Scalar>();
+      H.middleRows(row, s.rows) += error_columns(s.errors, s.rows);
       R.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows).cast<Scalar>();
       nu.segment(row, s.rows) = s.nu.head(s.rows).cast<Scalar>();
       row += s.rows;
@@ -70,16 +80,17 @@ class DenseFilter {
     consistency_ == ekf::Consistency::kInvariant ? move_invariantly(dx) : move(dx);
   }
 
-  void add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+  void add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
+           const ekf::ErrorTerms& errors = {}) {
     const int n = size();
-    const Matrix G = G_pose.topRows(dimension_).cast<Scalar>();
+    Matrix G = error_columns(errors, dimension_);
+    G.leftCols(3) = G_pose.topRows(dimension_).cast<Scalar>();
     Matrix grown(n + dimension_, n + dimension_);
     grown.topLeftCorner(n, n) = P_;
-    grown.bottomLeftCorner(dimension_, n) = G * P_.topRows(3);
+    grown.bottomLeftCorner(dimension_, n) = G * P_;
     grown.topRightCorner(n, dimension_) = grown.bottomLeftCorner(dimension_, n).transpose();
     grown.bottomRightCorner(dimension_, dimension_) =
-        G * P_.topLeftCorner(3, 3) * G.transpose() +
-        noise.topLeftCorner(dimension_, dimension_).cast<Scalar>();
+        G * P_ * G.transpose() + noise.topLeftCorner(dimension_, dimension_).cast<Scalar>();
     P_ = grown;
     x_.conservativeResize(n + dimension_);
     x_.tail(dimension_) = position.head(dimension_).cast<Scalar>();
@@ -87,7 +98,7 @@ class DenseFilter {
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index) {
-    const int to = 3 + dimension_ * index;
+    const int to = head_ + dimension_ * index;
     const int from = size() - dimension_;
     Eigen::PermutationMatrix<Eigen::Dynamic> swap(size());
     swap.setIdentity();
@@ -98,10 +109,25 @@ class DenseFilter {
   }
 
   [[nodiscard]] int size() const { return static_cast<int>(x_.size()); }
-  [[nodiscard]] Eigen::VectorXd mean() const { return x_.cast<double>(); }
-  [[nodiscard]] Eigen::MatrixXd covariance() const { return P_.cast<double>(); }
+  /// Of robot and landmarks.
+  [[nodiscard]] Eigen::VectorXd mean() const { return x_(places()).cast<double>(); }
+  [[nodiscard]] Eigen::MatrixXd covariance() const { return P_(places(), places()).cast<double>(); }
+  [[nodiscard]] Eigen::Vector2d errors(int pair) const { return x_.segment(3 + 2 * pair, 2).cast<double>(); }
 
  private:
+  [[nodiscard]] std::vector<int> places() const {
+    std::vector<int> places{0, 1, 2};
+    for (int i = head_; i < size(); ++i) places.push_back(i);
+    return places;
+  }
+
+  [[nodiscard]] Matrix error_columns(const ekf::ErrorTerms& errors, int rows) const {
+    Matrix J = Matrix::Zero(rows, size());
+    for (const auto& error : errors)
+      if (error.pair >= 0) J.middleCols(3 + 2 * error.pair, 2) += error.J.topRows(rows).cast<Scalar>();
+    return J;
+  }
+
   static Scalar wrap(Scalar a) {
     return std::remainder(a, 2 * Scalar(3.14159265358979323846264338327950288L));
   }
@@ -121,7 +147,7 @@ class DenseFilter {
     Eigen::Matrix<Scalar, 2, 2> V = Eigen::Matrix<Scalar, 2, 2>::Identity();
     if (a != 0) V << std::sin(a) / a, -(1 - std::cos(a)) / a, (1 - std::cos(a)) / a, std::sin(a) / a;
     Vector d = Vector::Zero(size());
-    for (int at = 0; at < size(); at = at == 0 ? 3 : at + dimension_) {
+    for (int at = 0; at < size(); at = at == 0 ? head_ : at + dimension_) {
       const Eigen::Matrix<Scalar, 2, 1> q = x_.segment(at, 2);
       const Eigen::Matrix<Scalar, 2, 1> moved =
           R * q + V * (Eigen::Matrix<Scalar, 2, 1>(dx.segment(at, 2)) - a * J * q);
@@ -130,12 +156,14 @@ class DenseFilter {
       if (at > 0 && dimension_ == 3) x_[at + 2] += dx[at + 2];
     }
     x_[2] = wrap(x_[2] + a);
+    x_.segment(3, head_ - 3) += dx.segment(3, head_ - 3);
     const Vector c = P_.col(2);
     P_ += d * c.transpose() + c * d.transpose() + c[2] * d * d.transpose();
     linearized_ = x_.head(3);
   }
 
   int dimension_;
+  int head_;
   ekf::Consistency consistency_;
   Vector x_;
   Matrix P_;

@@ -7,7 +7,10 @@
 
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
+#include "support/matrix_near.hpp"
+#include "waymark/core/chi2.hpp"
 #include "waymark/core/gaussian.hpp"
+#include "waymark/core/random.hpp"
 
 namespace waymark {
 namespace {
@@ -65,7 +68,7 @@ TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
 
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
-  EkfSlam filter = make(world, 8);
+  EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, {}, world.mount());
   drive(filter, world, 10);
   std::vector<Observation> scan(6, world.sight(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
@@ -94,6 +97,69 @@ TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
   EXPECT_EQ(filter.correct(scan).count(Outcome::kMatched), 80);
 }
 
+TEST(EkfSlam, AFullMapGivesItsLeastUsefulLandmarkForANewOne) {
+  for (const auto evict : {ekf::Eviction::kInformation, ekf::Eviction::kArticle}) {
+    CircleWorld world(6);
+    EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, {}, world.mount());
+    drive(filter, world, 20);
+    Observation unseen = world.sight(3);
+    unseen.id->number = 99;
+    const auto& correction = filter.correct({&unseen, 1});
+    EXPECT_EQ(correction.innovations[0].outcome, Outcome::kAdded);
+    ASSERT_EQ(correction.removed.size(), 1U);
+    const auto evicted = correction.removed[0];
+    EXPECT_NE(evicted, *unseen.id);
+    EXPECT_EQ(filter.state().landmarks(), 8);
+    for (const auto& landmark : filter.snapshot().landmarks) EXPECT_NE(landmark.id, evicted);
+    EXPECT_TRUE(filter.correct({}).removed.empty());
+    // What is left still belongs together: all but the evicted one are found where they are.
+    filter.predict(world.move());
+    const auto scan = world.look();
+    EXPECT_GE(filter.correct(scan).count(Outcome::kMatched), 6);
+  }
+}
+
+TEST(EkfSlam, AScanOfMoreNewLandmarksThanFitKeepsTheFirstOfThem) {
+  CircleWorld world(7);
+  EkfSlam filter = make(world, 3);
+  const auto& correction = filter.correct(world.look());
+  EXPECT_EQ(correction.count(Outcome::kAdded), 3);
+  EXPECT_EQ(correction.count(Outcome::kMapFull), 5);
+  EXPECT_TRUE(correction.removed.empty());
+}
+
+TEST(EkfSlam, CompressedItEstimatesTheSame) {
+  EkfSlam whole({.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kNever}, {},
+                Pose2{});
+  EkfSlam compressed(
+      {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .region = 48},
+      {}, Pose2{});
+  const auto sight = [](int landmark, double range_m) {
+    return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
+                       RangeBearing{range_m, 0.04 * landmark},
+                       Eigen::Matrix2d(1e-3 * Eigen::Matrix2d::Identity())};
+  };
+  RandomStream random(6, StreamPurpose::kSimulation);
+  for (int step = 0; step < 200; ++step) {  // sweeps over 150 landmarks on a spiral, ten at a time
+    std::vector<Observation> scan;
+    for (int i = 0; i < 10; ++i) {
+      const int landmark = (4 * step + i) % 150;
+      scan.push_back(sight(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
+    }
+    for (EkfSlam* filter : {&whole, &compressed}) {
+      filter->predict({{0.0, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
+      const auto& correction = filter->correct(scan);
+      EXPECT_EQ(correction.count(Outcome::kMatched) + correction.count(Outcome::kAdded), 10) << step;
+    }
+  }
+  EXPECT_GT(compressed.state().closed_regions(), 5);
+  const MapState a = whole.save();
+  const MapState b = compressed.save();
+  EXPECT_EQ(a.ids, b.ids);
+  EXPECT_TRUE(test::matrix_near(a.landmarks, b.landmarks, 1e-9));
+  EXPECT_TRUE(test::matrix_near(a.covariance, b.covariance, 1e-9));
+}
+
 TEST(EkfSlam, ASteadyStateStepAllocatesNothing) {
   CircleWorld world(4);
   EkfSlam filter = make(world);
@@ -118,6 +184,39 @@ TEST(EkfSlam, SavesTheWholeBelief) {
   EXPECT_EQ(map.landmarks.size(), 16);
   EXPECT_EQ(map.covariance, filter.state().covariance());
   EXPECT_TRUE(is_covariance(map.covariance));
+}
+
+TEST(EkfSlam, FindsItselfAgainAfterASlipThatItsOdometryDidNotSee) {
+  CircleWorld world(5);
+  EkfSlam filter = make(world);
+  drive(filter, world, 100);
+  world.move();  // of which the filter is not told
+  for (int i = 0; i < 20; ++i) world.move();
+  drive(filter, world, 30);
+  EXPECT_GT(filter.slips(), 0);
+  const auto pose = filter.pose();
+  EXPECT_LT(*mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance),
+            chi2_quantile(0.9999, 3));
+}
+
+TEST(EkfSlam, KnowsRepeatedSightingsWithALastingErrorForWhatTheyAre) {
+  // One landmark, watched from the same place: its error stays, so that after a hundred sightings it is as
+  // unsure as after one, while the innovations show how alike they are.
+  const SensorErrors errors{.lasting_range_sigma_ratio = 0.02, .lasting_bearing_sigma_deg = 1.0};
+  RandomStream random(11, StreamPurpose::kWorld);
+  EkfSlam filter({}, {}, {}, 1, errors);
+  double nis = 0.0;
+  constexpr int kSightings = 100;
+  Observation observation{LandmarkId{LandmarkId::Family::kMarker, 1}, RangeBearing{}, {}};
+  observation.covariance = Eigen::Vector2d(0.03 * 0.03, 0.005 * 0.005).asDiagonal();
+  for (int i = 0; i < kSightings; ++i) {
+    observation.value = RangeBearing{5.0 + 0.03 * random.normal(), 0.5 + 0.005 * random.normal()};
+    nis += filter.correct({&observation, 1}).innovations[0].nis / (2.0 * kSightings);
+  }
+  const Eigen::Matrix3d P = filter.snapshot().landmarks[0].covariance;
+  const double lasting = 0.1 * 0.1 + std::pow(5.0 * to_radians(1.0), 2);
+  EXPECT_NEAR(P.trace(), lasting, 0.05 * lasting);
+  EXPECT_NEAR(nis, 1.0, 0.33) << "beyond the 99.9 % band of a mean of 200 chi-square variables";
 }
 
 }  // namespace

@@ -44,6 +44,37 @@ TEST_P(SymmetricUpdate, IsThePlainFormulaAtEveryRank) {
   for (std::size_t D = 0; D <= 41; ++D) check(61, D);
 }
 
+TEST_P(SymmetricUpdate, ASymmetricProductOfTwoPanelsIsTheSameAsOfOne) {
+  const std::size_t n = 61;
+  for (std::size_t D = 0; D <= 9; ++D) {
+    const Panel A(D, n, random_), shear(2, n, random_), before(n, n, random_);
+    Panel B = A;  // psi A with psi = 2 I
+    for (std::size_t k = 0; k < D; ++k)
+      for (std::size_t j = 0; j < n; ++j) B(k, j) *= 2.0;
+    const double* d = shear.data();
+    const double* e = shear.data() + shear.ld();
+    Panel P = before, expected = before;
+    symmetric_product_update(P.data(), P.ld(), n, A.data(), B.data(), A.ld(), D, d, e, {0, n});
+    reference::symmetric_update(expected.data(), P.ld(), n, A.data(), A.ld(), D, nullptr, nullptr);
+    reference::symmetric_update(expected.data(), P.ld(), n, A.data(), A.ld(), D, d, e);
+    EXPECT_TRUE(panels_near(P, expected, before, triangle_place, kTolerance)) << "D = " << D;
+  }
+}
+
+TEST_P(SymmetricUpdate, SubtractsAProductFromWholeRows) {
+  for (const std::size_t rows : {1U, 7U, 24U, 51U}) {
+    for (const std::size_t n : test::sizes()) {
+      const Panel A(5, rows, random_), B(5, n, random_), before(rows, n, random_);
+      Panel P = before, expected = before;
+      subtract_product(P.data(), P.ld(), n, A.data(), A.ld(), B.data(), B.ld(), 5, {0, rows});
+      for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          for (std::size_t k = 0; k < 5; ++k) expected(i, j) -= A(k, i) * B(k, j);
+      EXPECT_TRUE(panels_near(P, expected, before, test::panel_place, kTolerance)) << rows << " x " << n;
+    }
+  }
+}
+
 TEST_P(SymmetricUpdate, GivesTheSameBitsInAnyBands) {
   const std::size_t n = 203, D = 7;
   const Panel W(D, n, random_), shear(2, n, random_), before(n, n, random_);

@@ -1,5 +1,6 @@
 #include "waymark/models/landmark_sensor.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,51 @@ TEST(NoiseCovariance, GrowsWithRangeAndFollowsTheLayoutOfObservations) {
   EXPECT_TRUE(matrix_near(noise_covariance(sensor, Bearing{1.0}),
                           Eigen::Matrix2d{{bearing_var, 0.0}, {0.0, 0.0}}, 1e-15));
   EXPECT_TRUE(matrix_near(noise_covariance(sensor, Pixel{1.0, 2.0}), Eigen::Matrix2d::Zero(), 0.0));
+}
+
+TEST(Rectify, LeavesWhatAPlainSensorReports) {
+  const auto z = std::get<RangeBearing>(rectify(LandmarkSensor{}, RangeBearing{3.0, 0.5}));
+  EXPECT_EQ(z.range_m, 3.0);
+  EXPECT_EQ(z.bearing_rad, 0.5);
+  EXPECT_EQ(std::get<Bearing>(rectify(LandmarkSensor{}, Bearing{0.5})).bearing_rad, 0.5);
+}
+
+TEST(Rectify, TakesOffsetAndScaleOutOfRanges) {
+  LandmarkSensor sensor;
+  sensor.range_scale = 1.05;
+  sensor.range_offset_m = 0.3;
+  EXPECT_NEAR(std::get<Range>(rectify(sensor, Range{1.05 * 4.0 + 0.3})).range_m, 4.0, 1e-12);
+  EXPECT_NEAR(std::get<RangeBearing>(rectify(sensor, RangeBearing{4.5, 1.0})).range_m, 4.0, 1e-12);
+}
+
+TEST(Rectify, MakesADepthARange) {
+  LandmarkSensor sensor;
+  sensor.range_is_depth = true;
+  const Eigen::Vector2d landmark(3.0, -1.5);
+  const double bearing_rad = std::atan2(landmark.y(), landmark.x());
+  const auto z = std::get<RangeBearing>(rectify(sensor, RangeBearing{landmark.x(), bearing_rad}));
+  EXPECT_NEAR(z.range_m, landmark.norm(), 1e-12);
+  EXPECT_EQ(z.bearing_rad, bearing_rad);
+}
+
+TEST(Rectify, RefusesADepthWithoutADirectionOrBesideTheSensor) {
+  LandmarkSensor sensor;
+  sensor.range_is_depth = true;
+  EXPECT_FALSE(is_usable(sensor, rectify(sensor, Range{3.0})));
+  EXPECT_FALSE(is_usable(sensor, rectify(sensor, RangeBearing{3.0, 0.5 * kPi + 0.01})));
+}
+
+TEST(WithWhiteErrors, CoversWhatLastsByNoise) {
+  LandmarkSensor sensor;
+  sensor.range_sigma_ratio = 0.03;
+  sensor.errors.lasting_range_sigma_ratio = 0.04;
+  sensor.bearing_sigma_deg = 3.0;
+  sensor.errors.shared_bearing_sigma_deg = 4.0;
+  const LandmarkSensor white = with_white_errors(sensor);
+  EXPECT_NEAR(white.range_sigma_ratio, 0.05, 1e-15);
+  EXPECT_NEAR(white.bearing_sigma_deg, 5.0, 1e-15);
+  EXPECT_FALSE(white.errors.lasts());
+  EXPECT_FALSE(white.errors.shares());
 }
 
 TEST(IsUsable, TakesRangesUpToTheLimitsThemselves) {

@@ -268,6 +268,18 @@ TEST(Motions, ScalesCorrectDistanceAndTurn) {
     EXPECT_TRUE(matrix_near(to_vector(motion.increment), Eigen::Vector3d(0.0, 0.0, 0.3), 1e-14));
 }
 
+TEST(VelocityMotion, GoesInwardFromThePointWhoseSpeedIsReported) {
+  OdometryOptions options;
+  options.outer_point_m = 0.1;
+  EXPECT_NEAR(velocity_motion({0.5, 0.0}, 1.0, options).increment.x_m, 0.5, 1e-15)
+      << "straight on all are as fast";
+  for (const double w_radps : {0.01, -0.01})
+    EXPECT_NEAR(velocity_motion({0.5, w_radps}, 1.0, options).increment.x_m, 0.499, 1e-5);
+  EXPECT_NEAR(velocity_motion({-0.5, 0.01}, 1.0, options).increment.x_m, -0.499, 1e-5);
+  EXPECT_EQ(velocity_motion({0.02, 1.0}, 1.0, options).increment.position().norm(), 0.0)
+      << "around a point beside it the robot turns on the spot";
+}
+
 TEST(OdometryPoseMotion, DoesNotDependOnTheOdometryFrame) {
   const OdometryOptions options = with_noise({});
   RandomStream random(2, StreamPurpose::kWorld);

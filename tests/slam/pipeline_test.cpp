@@ -38,8 +38,8 @@ class Recorder final : public Filter {
 
 struct Fixture {
   explicit Fixture(PipelineOptions options = {}, LandmarkSensor sensor = {},
-                   Observe observe = Observe::kRangeBearing)
-      : pipeline(filter, options, {}, sensor, observe,
+                   Observe observe = Observe::kRangeBearing, OdometryOptions odometry = {})
+      : pipeline(filter, options, odometry, sensor, observe,
                  [this](const Step& step) { stamps.push_back(step.stamp); }) {}
 
   void push(std::vector<Event> events) {
@@ -87,6 +87,14 @@ TEST(Pipeline, MovesToTheMomentOfTheSightingNotOfItsStamp) {
   LandmarkSensor sensor;
   sensor.delay_s = 0.2;
   Fixture f({}, sensor);
+  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
+}
+
+TEST(Pipeline, MovesWhenTheRobotFollowsItsCommand) {
+  OdometryOptions odometry;
+  odometry.response_s = 0.2;
+  Fixture f({}, {}, Observe::kRangeBearing, odometry);
   f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }

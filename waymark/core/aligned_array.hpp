@@ -1,13 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 namespace waymark {
+
+/// Zeros, aligned to a cache line, to be given back to std::free as `block`. From kHugePageBytes to
+/// kMaxHugePageBytes they are asked for in huge pages: filters walk over many long rows at once, more than
+/// there are entries in the table of page addresses. What is larger than that is a generous capacity, of
+/// which small pages commit no more than is used.
+struct ZeroedMemory {
+  static constexpr std::size_t kHugePageBytes = std::size_t{1} << 20;
+  static constexpr std::size_t kMaxHugePageBytes = std::size_t{1} << 28;
+
+  void* block = nullptr;
+  void* data = nullptr;
+};
+/// Throws std::bad_alloc.
+[[nodiscard]] ZeroedMemory allocate_zeros(std::size_t bytes);
 
 /// A fixed number of zeros, aligned to 64 bytes. Large arrays take memory page by page as they are first
 /// written, so that a generous capacity costs nothing until it is used. Throws std::bad_alloc.
@@ -16,13 +28,10 @@ class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  static constexpr std::size_t kAlignment = 64;
-
-  explicit AlignedArray(std::size_t count)
-      : memory_(std::calloc(count * sizeof(T) + kAlignment, 1)), size_(count) {
-    if (memory_ == nullptr) throw std::bad_alloc();
-    const auto address = reinterpret_cast<std::uintptr_t>(memory_.get());
-    data_ = reinterpret_cast<T*>((address + kAlignment - 1) / kAlignment * kAlignment);
+  explicit AlignedArray(std::size_t count) : size_(count) {
+    const ZeroedMemory zeros = allocate_zeros(count * sizeof(T));
+    memory_.reset(zeros.block);
+    data_ = static_cast<T*>(zeros.data);
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }

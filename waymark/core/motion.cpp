@@ -1,6 +1,13 @@
 #include "waymark/core/motion.hpp"
 
+#include <cmath>
+
 namespace waymark {
+
+double way_m(const Motion& motion) {
+  constexpr double kMetresPerRadian = 0.3;
+  return motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);
+}
 
 PoseEstimate propagate(const PoseEstimate& before, const Motion& motion) {
   const Eigen::Matrix3d F = compose_jacobian_left(before.T_world_robot, motion.increment);

@@ -19,6 +19,10 @@ struct Motion {
   return motion.increment == Pose2{} && motion.covariance.isZero(0.0);
 }
 
+/// How far a motion takes the robot's view along, m: its length, and its turn as 0.3 m per radian. A turn on
+/// the spot shows a landmark from no new place, but at a new bearing.
+[[nodiscard]] double way_m(const Motion& motion);
+
 /// Two motions in a row as one: T_0_2 = T_0_1 * T_1_2, covariance to first order.
 [[nodiscard]] Motion compose(const Motion& first, const Motion& second);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "waymark/core/gaussian.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -10,6 +11,11 @@ namespace waymark {
 namespace {
 
 enum Block : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
+
+// Gated sightings in a row that mean a lost robot, and the slip (x, y, theta) that is then tried first.
+constexpr int kMostGatedInARow = 5;
+constexpr int kMostDoublings = 8;
+const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
@@ -21,6 +27,12 @@ Outcome admissible(const Observation& observation) {
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
 }
 
+bool is_finite(const Motion& motion) {
+  const Pose2& T = motion.increment;
+  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
+         motion.covariance.allFinite();
+}
+
 }  // namespace
 
 void describe(Schema& schema, EkfOptions& options) {
@@ -29,20 +41,49 @@ void describe(Schema& schema, EkfOptions& options) {
       "where the filter linearises: invariant error, first estimates, or latest estimates as in the article");
   schema.integer("ekf.capacity", options.capacity, {1, 20000},
                  "most landmarks in the map; memory is taken once");
+  schema.choice(
+      "ekf.evict", options.evict, {"information", "article", "none"},
+      "which landmark leaves a full map: the one that told least about the pose, the one of largest I - K H "
+      "as in the article, or none, so that new ones are refused");
+  schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
+                "whether a large map is updated region by region, at the cost of a small one; auto: once it "
+                "is large enough to gain");
+  schema.integer("ekf.region", options.region, {48, 20000},
+                 "landmarks in a region of a compressed map; more where so many are seen at once");
 }
 
-EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads)
-    : state_(2, options.capacity, options.consistency, threads),
+ekf::Compression compression(const EkfOptions& options) {
+  switch (options.compressed) {
+    case Compress::kAlways:
+      return {options.region, options.region};
+    case Compress::kNever:
+      return {options.region, options.capacity};
+    case Compress::kAuto:
+      break;
+  }
+  return {options.region, 3 * options.region};
+}
+
+EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
+                 const SensorErrors& errors)
+    : errors_(errors),
+      state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
-      index_(static_cast<std::size_t>(options.capacity)) {
+      index_(static_cast<std::size_t>(options.capacity)),
+      management_(options.evict, options.capacity) {
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
-  sightings_.reserve(ekf::State::kMaxSightings);
+  removed_.reserve(static_cast<std::size_t>(options.capacity));
+  sightings_.reserve(ekf::CompressedState::kMaxSightings);
+  errors_.start(state_);
 }
 
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
-  if (!is_still(motion)) state_.predict(motion);
+  if (!is_still(motion) && is_finite(motion)) {
+    state_.predict(motion);
+    errors_.drive(way_m(motion));
+  }
   timer.finish(kPredict);
 }
 
@@ -50,17 +91,23 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   BlockTimer timer(blocks_);
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
+  if (is_lost()) widen(observations);
   timer.finish(kAssociate);
   update(observations);
   timer.finish(kEstimate);
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
   timer.finish(kAdd);
-  correction_ = {innovations_, {}};
+  correction_ = {innovations_, removed_};
   return correction_;
 }
 
-void EkfSlam::prepare(std::size_t count) { innovations_.assign(count, {}); }
+void EkfSlam::prepare(std::size_t count) {
+  innovations_.assign(count, {});
+  removed_.clear();
+  management_.begin_scan();
+  errors_.begin_scan();
+}
 
 bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
   return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index),
@@ -80,33 +127,83 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
     innovation.outcome = Outcome::kDuplicate;
     return;
   }
+  errors_.sight(state_, innovation.landmark);
   const auto landmark = index_.find(innovation.landmark);
   if (!landmark) {
-    innovation.outcome = state_.landmarks() < state_.capacity() ? Outcome::kAdded : Outcome::kMapFull;
+    innovation.outcome = Outcome::kAdded;  // if add() finds room
     return;
   }
-  const auto sighting =
-      linearize(*landmark, std::get<RangeBearing>(observation.value), *observation.covariance);
-  const auto nis = mahalanobis_squared<2>(sighting.nu, state_.innovation_covariance(sighting));
-  innovation.dof = nis ? 2 : 0;
-  innovation.nis = nis.value_or(0.0);
+  compare(innovation, linearize(*landmark, observation));
+}
+
+/// Gates one linearised sighting, and tells the map management how useful its landmark was.
+void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting) {
+  innovation.outcome = Outcome::kUnusable;
+  if (!sighting) return;
+  const Eigen::Matrix2d S = state_.innovation_covariance(*sighting);
+  const auto nis = mahalanobis_squared<2>(sighting->nu, S);
+  if (!nis) return;
+  innovation.dof = 2;
+  innovation.nis = *nis;
   innovation.gate = gate_.threshold(2);
-  if (!nis) innovation.outcome = Outcome::kUnusable;
-  if (nis && *nis > innovation.gate) innovation.outcome = Outcome::kGated;
+  innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
+  if (!management_.evicts()) return;
+  if (innovation.outcome == Outcome::kMatched)
+    management_.matched(sighting->landmark,
+                        {state_.pose().covariance, state_.pose_correlation(*sighting), S, sighting->H_pose});
+  else
+    management_.missed(sighting->landmark);
+}
+
+/// A misread identity is an odd one out. So many gated sightings without an accepted one between them mean
+/// that not they are wrong but the pose.
+bool EkfSlam::is_lost() {
+  for (const Innovation& innovation : innovations_) {
+    if (innovation.outcome == Outcome::kMatched) gated_in_a_row_ = 0;
+    if (innovation.outcome == Outcome::kGated) ++gated_in_a_row_;
+  }
+  return gated_in_a_row_ >= kMostGatedInARow && mostly_gated();
+}
+
+bool EkfSlam::mostly_gated() const {
+  const auto count = [this](Outcome outcome) {
+    return std::ranges::count(innovations_, outcome, &Innovation::outcome);
+  };
+  return count(Outcome::kGated) > count(Outcome::kMatched);
+}
+
+/// The robot slipped as its odometry says it never does: the pose is made less sure, step by step, until most
+/// of what is seen can be believed. A filter that went on refusing would stay lost.
+void EkfSlam::widen(std::span<const Observation> observations) {
+  ++slips_;
+  gated_in_a_row_ = 0;
+  Motion slip;
+  slip.covariance = kSmallestSlip.cwiseAbs2().asDiagonal();
+  for (int doublings = 0; doublings < kMostDoublings && mostly_gated(); ++doublings) {
+    state_.predict(slip);
+    slip.covariance *= 4.0;
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (innovations_[i].outcome == Outcome::kGated)
+        compare(innovations_[i], linearize(*index_.find(innovations_[i].landmark), observations[i]));
+  }
 }
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.
-ekf::Sighting EkfSlam::linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const {
+std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const Observation& observation) const {
+  const auto& z = std::get<RangeBearing>(observation.value);
   const Eigen::Vector2d p = state_.landmark(landmark).head<2>();
   const auto here = RangeBearingModel::linearize(state_.pose().T_world_robot, T_robot_sensor_, p);
   const auto jacobians = RangeBearingModel::linearize(state_.linearization_pose(), T_robot_sensor_,
                                                       state_.linearization_landmark(landmark).head<2>());
+  if (!(std::min(here.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
+  const ekf::SightingError error = errors_.of(state_, *observation.id, here.predicted[0]);
   ekf::Sighting sighting;
   sighting.landmark = landmark;
-  sighting.nu = RangeBearingModel::innovation(z, here.predicted);
+  sighting.nu = RangeBearingModel::innovation(z, here.predicted + error.expected);
   sighting.H_pose = jacobians.H_pose;
   sighting.H_landmark.leftCols<2>() = jacobians.H_landmark;
-  sighting.R = R;
+  sighting.R = *observation.covariance + error.unmodelled;
+  sighting.errors = error.terms;
   return sighting;
 }
 
@@ -116,11 +213,14 @@ void EkfSlam::update(std::span<const Observation> observations) {
   while (next < observations.size()) {
     const std::size_t first = next;
     sightings_.clear();
-    for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next) {
+    for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next) {
       if (innovations_[next].outcome != Outcome::kMatched) continue;
       const int landmark = *index_.find(innovations_[next].landmark);
-      sightings_.push_back(linearize(landmark, std::get<RangeBearing>(observations[next].value),
-                                     *observations[next].covariance));
+      const auto sighting = linearize(landmark, observations[next]);
+      if (sighting)
+        sightings_.push_back(*sighting);
+      else
+        innovations_[next].outcome = Outcome::kUnusable;
     }
     const bool done = state_.update(sightings_);
     for (std::size_t i = first; i < next; ++i) {
@@ -133,22 +233,46 @@ void EkfSlam::update(std::span<const Observation> observations) {
   }
 }
 
+/// Whether there is room for one more landmark, if need be by removing one.
+bool EkfSlam::make_room() {
+  if (state_.landmarks() < state_.capacity()) return true;
+  const auto least_useful = management_.evicts() ? management_.least_useful() : std::nullopt;
+  if (least_useful) remove(*least_useful);
+  return least_useful.has_value();
+}
+
+void EkfSlam::remove(int landmark) {
+  const LandmarkId id = landmarks_[static_cast<std::size_t>(landmark)].id;
+  state_.remove(landmark);
+  management_.removed(landmark);
+  landmarks_[static_cast<std::size_t>(landmark)] = landmarks_.back();
+  index_.assign(landmarks_.back().id, landmark);
+  index_.erase(id);
+  landmarks_.pop_back();
+  removed_.push_back(id);
+}
+
 void EkfSlam::add(std::size_t index, const Observation& observation) {
-  if (state_.landmarks() == state_.capacity()) {
+  if (!make_room()) {
     innovations_[index].outcome = Outcome::kMapFull;
     return;
   }
   const auto& z = std::get<RangeBearing>(observation.value);
-  const auto inverse = RangeBearingModel::locate(state_.pose().T_world_robot, T_robot_sensor_, z);
+  ekf::SightingError error = errors_.of(state_, *observation.id, z.range_m);
+  const auto inverse = RangeBearingModel::locate(
+      state_.pose().T_world_robot, T_robot_sensor_,
+      {z.range_m - error.expected[0], wrap_angle(z.bearing_rad - error.expected[1])});
   const Eigen::Vector3d position(inverse.p_world.x(), inverse.p_world.y(), 0.0);
   Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
   G_pose.topRows<2>() = inverse.G_pose;
   G_pose.block<2, 1>(0, 2) = perpendicular(inverse.p_world - state_.linearization_pose().position());
+  const Eigen::Matrix2d& G = inverse.G_measurement;
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise.topLeftCorner<2, 2>() =
-      inverse.G_measurement * *observation.covariance * inverse.G_measurement.transpose();
-  index_.assign(*observation.id, state_.add(position, G_pose, noise));
+  noise.topLeftCorner<2, 2>() = G * (*observation.covariance + error.unmodelled) * G.transpose();
+  for (ekf::ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
+  index_.assign(*observation.id, state_.add(position, G_pose, noise, error.terms));
   landmarks_.push_back({*observation.id, 1});
+  management_.added();
 }
 
 Snapshot EkfSlam::snapshot() const {

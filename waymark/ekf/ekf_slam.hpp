@@ -1,27 +1,41 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "waymark/association/gate.hpp"
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/compressed_state.hpp"
+#include "waymark/ekf/lasting_errors.hpp"
+#include "waymark/ekf/map_management.hpp"
 
 namespace waymark {
+
+/// Whether the map outside of the robot's region is left alone for the time being.
+enum class Compress { kAuto, kAlways, kNever };
 
 struct EkfOptions {
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   int capacity = 1000;
+  ekf::Eviction evict = ekf::Eviction::kInformation;
+  Compress compressed = Compress::kAuto;
+  int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };
+
+/// With kAuto a map is compressed when it is three times a region: below that it costs more than it saves.
+[[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
 void describe(Schema& schema, EkfOptions& options);
 
 /// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known
-/// identities, gated one by one; a first sighting adds its landmark.
+/// identities, gated one by one; a first sighting adds its landmark, in the place of the least useful one
+/// when the map is full.
 class EkfSlam final : public Filter {
  public:
-  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1);
+  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1,
+          const SensorErrors& errors = {});
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -30,7 +44,9 @@ class EkfSlam final : public Filter {
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
 
-  [[nodiscard]] const ekf::State& state() const { return state_; }
+  [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
+  /// How often the robot must have slipped far beyond its odometry: see correct().
+  [[nodiscard]] int slips() const { return slips_; }
 
  private:
   struct Landmark {
@@ -40,18 +56,30 @@ class EkfSlam final : public Filter {
 
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
-  [[nodiscard]] ekf::Sighting linearize(int landmark, const RangeBearing& z, const Eigen::Matrix2d& R) const;
+  void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
+  [[nodiscard]] bool is_lost();
+  [[nodiscard]] bool mostly_gated() const;
+  void widen(std::span<const Observation> observations);
+  /// Nothing where the landmark is believed to be at the sensor itself.
+  [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
   void update(std::span<const Observation> observations);
+  [[nodiscard]] bool make_room();
+  void remove(int landmark);
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
 
-  ekf::State state_;
+  ekf::LastingErrors errors_;
+  ekf::CompressedState state_;
   Gate gate_;
   Pose2 T_robot_sensor_;
   IdIndex index_;
-  std::vector<Landmark> landmarks_;       // by index in the state
+  ekf::MapManagement management_;
+  std::vector<Landmark> landmarks_;  // by index in the state
+  int gated_in_a_row_ = 0;
+  int slips_ = 0;
   std::vector<Innovation> innovations_;   // one per observation of the last correct()
   std::vector<ekf::Sighting> sightings_;  // of one block of the update
+  std::vector<LandmarkId> removed_;       // by the last correct()
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};
 };

@@ -4,7 +4,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
+#include "waymark/ekf/turn_jacobian.hpp"
 #include "waymark/kernels/add_scaled_rows.hpp"
 #include "waymark/kernels/move_block.hpp"
 #include "waymark/kernels/symmetric_rows.hpp"
@@ -17,19 +19,13 @@ namespace {
 /// Below this size of the state a second thread costs more than it brings.
 constexpr std::size_t kParallelSize = 800;
 
-/// V(a): how a turn by a carries a displacement along (the left Jacobian of SO(2)).
-Eigen::Matrix2d turn_jacobian(double a) {
-  const double sine = std::abs(a) < 1e-6 ? 1.0 - a * a / 6.0 : std::sin(a) / a;
-  const double versine = std::abs(a) < 1e-6 ? 0.5 * a : (1.0 - std::cos(a)) / a;
-  return Eigen::Matrix2d{{sine, -versine}, {versine, sine}};
-}
-
 }  // namespace
 
-State::State(int dimension, int capacity, Consistency consistency, int threads)
+State::State(int dimension, int capacity, Consistency consistency, int threads, int error_pairs)
     : dimension_(dimension),
       capacity_(capacity),
       consistency_(consistency),
+      head_(error_offset(error_pairs)),
       ld_(kernels::padded_stride(offset(capacity))),
       x_(ld_),
       first_(ld_),
@@ -49,16 +45,35 @@ PoseEstimate State::pose() const {
   return {{x_[0], x_[1], x_[2]}, covariance};
 }
 
-Eigen::Vector3d State::landmark(int index) const {
-  const double* p = &x_[offset(index)];
+Eigen::Vector3d State::point(const Buffer& buffer, int index) const {
+  const double* p = &buffer[offset(index)];
   return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
 }
 
+Eigen::Vector3d State::landmark(int index) const { return point(x_, index); }
+
 Eigen::Matrix3d State::landmark_covariance(int index) const {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  covariance.topLeftCorner(dimension_, dimension_) =
-      joint_covariance(index).block(3, 3, dimension_, dimension_);
-  return covariance;
+  Eigen::Matrix3d P_landmark = Eigen::Matrix3d::Zero();
+  const std::size_t first = offset(index);
+  for (int a = 0; a < dimension_; ++a)
+    for (int b = 0; b < dimension_; ++b)
+      P_landmark(a, b) = P(first + static_cast<std::size_t>(a), first + static_cast<std::size_t>(b));
+  return P_landmark;
+}
+
+Eigen::Vector2d State::errors(int pair) const {
+  const std::size_t first = error_offset(pair);
+  return {x_[first], x_[first + 1]};
+}
+
+void State::relax_errors(int pair, double rho) {
+  const std::size_t first = error_offset(pair);
+  for (std::size_t row = first; row < first + 2; ++row) {
+    for (std::size_t i = 0; i < row; ++i) P_[i * ld_ + row] *= rho;
+    for (std::size_t j = row; j < size(); ++j) P_[row * ld_ + j] *= rho;
+    P_[row * ld_ + row] = rho * P_[row * ld_ + row] + 1.0 - rho * rho;
+    x_[row] *= rho;
+  }
 }
 
 Pose2 State::linearization_pose() const {
@@ -66,9 +81,7 @@ Pose2 State::linearization_pose() const {
 }
 
 Eigen::Vector3d State::linearization_landmark(int index) const {
-  if (consistency_ != Consistency::kFej) return landmark(index);
-  const double* p = &first_[offset(index)];
-  return {p[0], p[1], dimension_ == 3 ? p[2] : 0.0};
+  return consistency_ == Consistency::kFej ? first_estimate(index) : landmark(index);
 }
 
 void State::set_pose(const PoseEstimate& pose) {
@@ -101,8 +114,14 @@ void State::predict(const Motion& motion) {
   x_[2] = after.theta_rad;
 }
 
-void State::join_robot_rows() {
-  if (!pending_) return;
+double State::covariance(std::size_t i, std::size_t j) const {
+  const std::size_t row = std::min(i, j);
+  const std::size_t column = std::max(i, j);
+  return P(row, column) + (row < 2 && column >= 3 ? pending_phi_[static_cast<int>(row)] * P(2, column) : 0.0);
+}
+
+Eigen::Vector2d State::join_robot_rows() {
+  if (!pending_) return Eigen::Vector2d::Zero();
   double* row_x = P_.data();
   double* row_y = &P_[ld_];
   const double* row_theta = &P_[2 * ld_];
@@ -110,36 +129,43 @@ void State::join_robot_rows() {
     row_x[j] += pending_phi_.x() * row_theta[j];
     row_y[j] += pending_phi_.y() * row_theta[j];
   }
-  pending_phi_.setZero();
   pending_ = false;
+  return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
 }
 
-/// Covariance of (x, y, theta, landmark), the pending prediction included; a 2-D landmark leaves the last row
-/// zero.
-Eigen::Matrix<double, 6, 6> State::joint_covariance(int index) const {
-  Eigen::Matrix<double, 6, 6> joint = Eigen::Matrix<double, 6, 6>::Zero();
-  const std::size_t first = offset(index);
-  const auto d = static_cast<std::size_t>(dimension_);
-  for (std::size_t i = 0; i < 3 + d; ++i)
-    for (std::size_t j = i; j < 3 + d; ++j)
-      joint(static_cast<int>(i), static_cast<int>(j)) =
-          P(i < 3 ? i : first + i - 3, j < 3 ? j : first + j - 3);
-  joint.block(0, 3, 2, dimension_) += pending_phi_ * joint.block(2, 3, 1, dimension_);
-  joint.triangularView<Eigen::StrictlyLower>() = joint.transpose();
-  return joint;
+Touched State::touched(const Sighting& sighting, int rows) const {
+  Touched t(sighting.H_pose.topRows(rows), sighting.errors, dimension_);
+  t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(rows, dimension_);
+  for (int k = 0; k < dimension_; ++k)
+    t.rows[static_cast<std::size_t>(t.head + k)] = offset(sighting.landmark) + static_cast<std::size_t>(k);
+  return t;
 }
 
 Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
-  Eigen::Matrix<double, 2, 6> H;
-  H << sighting.H_pose, sighting.H_landmark;
-  return H * joint_covariance(sighting.landmark) * H.transpose() + sighting.R;
+  const Touched t = touched(sighting, 2);
+  Eigen::Matrix2d S = sighting.R;
+  for (Eigen::Index i = 0; i < t.J.cols(); ++i)
+    for (Eigen::Index j = 0; j < t.J.cols(); ++j)
+      S += covariance(t.rows[static_cast<std::size_t>(i)], t.rows[static_cast<std::size_t>(j)]) * t.J.col(i) *
+           t.J.col(j).transpose();
+  return S;
+}
+
+Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) const {
+  const Touched t = touched(sighting, 2);
+  Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < t.J.cols(); ++j)
+      C.row(i) += covariance(static_cast<std::size_t>(i), t.rows[static_cast<std::size_t>(j)]) *
+                  t.J.col(j).transpose();
+  return C;
 }
 
 bool State::update(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (sightings.empty()) return true;
   join_robot_rows();
-  const std::size_t rows = project(sightings);
+  const std::size_t rows = rows_ = project(sightings);
   form_innovation_covariance(sightings, static_cast<int>(rows));
   if (!factorize(static_cast<int>(rows))) return false;
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
@@ -155,16 +181,11 @@ bool State::update(std::span<const Sighting> sightings) {
 /// W <- C = H P from the touched rows of P; returns the number of measurement rows.
 std::size_t State::project(std::span<const Sighting> sightings) {
   std::size_t row = 0;
-  const auto d = static_cast<std::size_t>(dimension_);
   for (const Sighting& sighting : sightings) {
-    const std::size_t first = offset(sighting.landmark);
-    const std::array<std::size_t, 6> touched{0, 1, 2, first, first + 1, first + 2};
-    Eigen::Matrix<double, 2, 6, Eigen::RowMajor> H;
-    H << sighting.H_pose, sighting.H_landmark;
-    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor, 2, 6> H_touched = H.leftCols(3 + dimension_);
+    const Touched t = touched(sighting, sighting.rows);
     const auto rows = static_cast<std::size_t>(sighting.rows);
-    kernels::project_rows(P_.data(), ld_, size(), touched.data(), 3 + d, H_touched.data(), rows,
-                          &W_[row * ld_], ld_);
+    kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), rows, &W_[row * ld_],
+                          ld_);
     nu_.segment(static_cast<int>(row), sighting.rows) = sighting.nu.head(sighting.rows);
     row += rows;
   }
@@ -175,14 +196,12 @@ std::size_t State::project(std::span<const Sighting> sightings) {
 void State::form_innovation_covariance(std::span<const Sighting> sightings, int rows) {
   int column = 0;
   for (const Sighting& sighting : sightings) {
-    const std::size_t first = offset(sighting.landmark);
+    const Touched t = touched(sighting, sighting.rows);
     for (int i = column; i < rows; ++i) {
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
       for (int r = 0; r < sighting.rows; ++r) {
         double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
-        for (int k = 0; k < 3; ++k) s += c[k] * sighting.H_pose(r, k);
-        for (int k = 0; k < dimension_; ++k)
-          s += c[first + static_cast<std::size_t>(k)] * sighting.H_landmark(r, k);
+        for (int k = 0; k < t.J.cols(); ++k) s += c[t.rows[static_cast<std::size_t>(k)]] * t.J(r, k);
         S_(i, column + r) = s;
       }
     }
@@ -225,6 +244,7 @@ void State::apply_invariantly(std::size_t rows) {
   };
   move(0);
   x_[2] = wrap_angle(x_[2] + turn);
+  for (std::size_t j = 3; j < head_; ++j) x_[j] += dx_[j];
   for (int i = 0; i < landmarks_; ++i) {
     move(offset(i));
     if (dimension_ == 3) x_[offset(i) + 2] += dx_[offset(i) + 2];
@@ -257,21 +277,45 @@ void State::correct_covariance(std::size_t rows, bool shear) {
   });
 }
 
-int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise) {
+Gain State::gain() const {
+  const bool sheared = consistency_ == Consistency::kInvariant;
+  return {rows_,
+          ld_,
+          W_.data(),
+          static_cast<std::size_t>(S_.cols()),
+          S_.data(),
+          nu_.data(),
+          sheared ? shear_d_.data() : nullptr,
+          dx_[2]};
+}
+
+int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
+               const ErrorTerms& errors) {
+  join_robot_rows();
+  const Touched t(G_pose.topRows(dimension_), errors);
+  kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(),
+                        static_cast<std::size_t>(dimension_), W_.data(), ld_);
+  Eigen::Matrix3d covariance = noise;
+  for (int a = 0; a < dimension_; ++a)
+    for (int b = 0; b < dimension_; ++b)
+      for (int k = 0; k < t.J.cols(); ++k)
+        covariance(a, b) +=
+            W_[static_cast<std::size_t>(a) * ld_ + t.rows[static_cast<std::size_t>(k)]] * t.J(b, k);
+  return insert(position, position, W_.data(), ld_, covariance);
+}
+
+int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+                  std::size_t ld, const Eigen::Matrix3d& covariance) {
   assert(landmarks_ < capacity_);
   join_robot_rows();
-  const std::size_t first = size();
-  const auto d = static_cast<std::size_t>(dimension_);
-  for (std::size_t a = 0; a < d; ++a) {
-    const Eigen::Vector3d g = G_pose.row(static_cast<int>(a));
-    for (std::size_t j = 0; j < first; ++j)
-      P_[j * ld_ + first + a] = g[0] * P(0, j) + g[1] * P(1, j) + g[2] * P(2, j);
-    x_[first + a] = first_[first + a] = position[static_cast<int>(a)];
+  const std::size_t n = size();
+  for (int a = 0; a < dimension_; ++a) {
+    const std::size_t at = n + static_cast<std::size_t>(a);
+    for (std::size_t j = 0; j < n; ++j) P_[j * ld_ + at] = cross[static_cast<std::size_t>(a) * ld + j];
+    for (int b = a; b < dimension_; ++b) P_[at * ld_ + n + static_cast<std::size_t>(b)] = covariance(a, b);
+    x_[at] = position[a];
+    first_[at] = first[a];
   }
-  const Eigen::Matrix3d P_new = G_pose * pose().covariance * G_pose.transpose() + noise;
-  for (std::size_t a = 0; a < d; ++a)
-    for (std::size_t b = a; b < d; ++b)
-      P_[(first + a) * ld_ + first + b] = P_new(static_cast<int>(a), static_cast<int>(b));
   return landmarks_++;
 }
 
@@ -289,19 +333,20 @@ void State::remove(int index) {
   --landmarks_;
 }
 
+/// Row of the i-th value of (x, y, theta, landmarks).
+std::size_t State::place(int i) const { return static_cast<std::size_t>(i) + (i < 3 ? 0 : head_ - 3); }
+
 Eigen::VectorXd State::mean() const {
-  return Eigen::Map<const Eigen::VectorXd>(x_.data(), static_cast<int>(size()));
+  Eigen::VectorXd x(3 + dimension_ * landmarks_);
+  for (int i = 0; i < x.size(); ++i) x[i] = x_[place(i)];
+  return x;
 }
 
 Eigen::MatrixXd State::covariance() const {
-  const auto n = static_cast<int>(size());
+  const int n = 3 + dimension_ * landmarks_;
   Eigen::MatrixXd full(n, n);
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) full(i, j) = P(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  if (landmarks_ > 0) {
-    full.topRightCorner(2, n - 3) += pending_phi_ * full.block(2, 3, 1, n - 3);
-    full.bottomLeftCorner(n - 3, 2) = full.topRightCorner(2, n - 3).transpose();
-  }
+    for (int j = 0; j < n; ++j) full(i, j) = covariance(place(i), place(j));
   return full;
 }
 

@@ -7,6 +7,7 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/parallel.hpp"
+#include "waymark/ekf/touched.hpp"
 #include "waymark/kernels/layout.hpp"
 
 namespace waymark::ekf {
@@ -20,7 +21,8 @@ enum class Consistency {
 };
 
 /// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
-/// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count.
+/// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count. `errors` says
+/// which lasting errors of the sensor are in z.
 struct Sighting {
   int landmark = 0;
   int rows = 2;
@@ -28,22 +30,42 @@ struct Sighting {
   Eigen::Matrix<double, 2, 3> H_pose = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 3> H_landmark = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
+  ErrorTerms errors = {};
 };
 
-/// The state vector (x, y, theta, landmark 1, landmark 2, ...) with its covariance, and the only code that
-/// writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once; nothing here
-/// allocates later.
+/// What an update did, for a filter that remembers more than the state holds. Views into the state, good
+/// until it is next changed.
+struct Gain {
+  std::size_t rows;  ///< D, measurement rows
+  std::size_t ld;    ///< stride of W
+  const double* W;   ///< D x n: L^-1 H P, so that P <- P - W^T W
+  std::size_t ld_L;  ///< stride of L
+  const double* L;   ///< D x D, lower: L L^T = H P H^T + R
+  const double* nu;  ///< D: L^-1 nu, so that dx = W^T nu
+  const double*
+      shear;  ///< n: d of the invariant filter's shear P <- (I + d e_theta^T) P (I + d e_theta^T)^T, or null
+  double turn;  ///< change of heading, rad
+};
+
+/// The state vector (x, y, theta, lasting errors, landmark 1, landmark 2, ...) with its covariance, and the
+/// only code that writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once;
+/// nothing here allocates later.
+///
+/// Lasting errors are what successive sightings have in common that is neither the robot's nor the map's
+/// doing. They come in pairs of independent unit variance at most; what a pair stands for, and how large it
+/// is, is for those who use it to say (ErrorTerm::J).
 ///
 /// Only the upper triangle of the covariance is kept (kernels/layout.hpp). Costs with n = 3 + dimension *
 /// landmarks: predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop,
 /// add O(n), remove O(n).
 class State {
  public:
-  State(int dimension, int capacity, Consistency consistency, int threads = 1);
+  State(int dimension, int capacity, Consistency consistency, int threads = 1, int error_pairs = 0);
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int landmarks() const { return landmarks_; }
   [[nodiscard]] int capacity() const { return capacity_; }
+  [[nodiscard]] Consistency consistency() const { return consistency_; }
   /// Most sightings that one update() takes.
   static constexpr int kMaxSightings = 32;
 
@@ -62,8 +84,17 @@ class State {
   /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed.
   void predict(const Motion& motion);
 
+  /// Expected values of a pair of lasting errors; zero at first, and certainly so.
+  [[nodiscard]] Eigen::Vector2d errors(int pair) const;
+  /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance.
+  /// O(n).
+  void relax_errors(int pair, double rho);
+
   /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
+
+  /// C = P(pose, :) H^T of one sighting: how what it measures goes with (x, y, theta). O(1).
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
 
   /// Exact update with all sightings at once (Vincke et al. 2012, equations 10 to 12, as P -= W^T W with
   /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive
@@ -71,29 +102,57 @@ class State {
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
 
   /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only
-  /// their leading `dimension()` rows count. Returns its index. The map must not be full.
-  int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise);
+  /// their leading `dimension()` rows count; `errors` as dg/derrors. Returns its index. The map must not be
+  /// full.
+  int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
+          const ErrorTerms& errors = {});
+
+  /// Appends a landmark that was estimated elsewhere: `cross` holds its covariance with the whole state so
+  /// far, one row of n values per coordinate, `ld` apart. `first` is its first estimate. Returns its index.
+  /// The map must not be full.
+  int insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
+             std::size_t ld, const Eigen::Matrix3d& covariance);
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);
 
-  /// The whole mean and the whole symmetric covariance; allocates.
+  /// Row or column of a landmark in mean and covariance.
+  [[nodiscard]] std::size_t offset(int index) const {
+    return head_ + static_cast<std::size_t>(index * dimension_);
+  }
+  /// Rows before the first landmark: the robot's and those of the lasting errors.
+  [[nodiscard]] std::size_t head() const { return head_; }
+  /// The rows of the state that the first `rows` rows of a sighting depend on.
+  [[nodiscard]] Touched touched(const Sighting& sighting, int rows) const;
+  /// n
+  [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
+  /// One entry of the covariance.
+  [[nodiscard]] double covariance(std::size_t i, std::size_t j) const;
+  /// First estimate of a landmark.
+  [[nodiscard]] Eigen::Vector3d first_estimate(int index) const { return point(first_, index); }
+
+  /// What the last successful update() did; nothing else may have happened since.
+  [[nodiscard]] Gain gain() const;
+
+  /// P_rm <- Phi P_rm as far as it is due. Returns phi of Phi = [I, phi; 0, 1]: zero if nothing was due.
+  /// Every operation that needs it does it by itself.
+  Eigen::Vector2d join_robot_rows();
+  /// What it would return.
+  [[nodiscard]] Eigen::Vector2d pending() const { return pending_phi_; }
+
+  /// Mean and symmetric covariance of robot and landmarks; allocates.
   [[nodiscard]] Eigen::VectorXd mean() const;
   [[nodiscard]] Eigen::MatrixXd covariance() const;
 
  private:
   using Buffer = AlignedArray<double>;
 
-  [[nodiscard]] std::size_t size() const { return offset(landmarks_); }
-  [[nodiscard]] std::size_t offset(int index) const {
-    return 3 + static_cast<std::size_t>(index * dimension_);
-  }
+  [[nodiscard]] Eigen::Vector3d point(const Buffer& buffer, int index) const;
   [[nodiscard]] double P(std::size_t i, std::size_t j) const {
     return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
   }
-  [[nodiscard]] Eigen::Matrix<double, 6, 6> joint_covariance(int index) const;
+  [[nodiscard]] std::size_t place(int i) const;
 
-  void join_robot_rows();
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
   [[nodiscard]] bool factorize(int rows);
@@ -105,6 +164,7 @@ class State {
   int dimension_;
   int capacity_;
   Consistency consistency_;
+  std::size_t head_;
   int landmarks_ = 0;
   std::size_t ld_;
 
@@ -117,6 +177,7 @@ class State {
   Buffer shear_e_;  // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
   Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
+  std::size_t rows_ = 0;                                                      // D of the last update
 
   // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last
   // joined.

@@ -27,20 +27,24 @@ constexpr std::size_t kTileRows = 8, kTileVectors = 3;
 constexpr std::size_t kTileRows = 4, kTileVectors = 3;
 #endif
 
-// Rows of P that share a panel of W, D rows by one tile's width, so that it comes into L1 once for all of
-// them. Fewer would fetch W more often, more would be more streams through P than the hardware prefetcher
+// Rows of P that share a panel of B, D rows by one tile's width, so that it comes into L1 once for all of
+// them. Fewer would fetch B more often, more would be more streams through P than the hardware prefetcher
 // follows.
 constexpr std::size_t kRowBlock = 24;
 
 constexpr hn::ScalableTag<double> kTag;
 using Vector = hn::Vec<decltype(kTag)>;
 
+// P -= A^T B, on the upper triangle only or on whole rows.
 struct Update {
   double* P;
   std::size_t ld;
-  const double* W;
-  std::size_t ldw, D;
-  const double *d, *e;  // null without a shear
+  const double* A;
+  std::size_t lda;
+  const double* B;
+  std::size_t ldb, D;
+  const double *d = nullptr, *e = nullptr;  // null without a shear
+  bool triangle = true;
 };
 
 // The change of kRows rows by kVectors vectors of P.
@@ -89,12 +93,10 @@ HWY_INLINE void update_tile(const Update& u, std::size_t i, std::size_t j) {
   Tile<kRows, kVectors> tile;
   tile.clear();
   prefetch_right<kRows, kVectors>(P, u.ld);
-  // The row tiles of a block share out the fetching of the next panel of W: one vector of each row of W.
-  const std::size_t next = (kVectors + i / kTileRows % kTileVectors) * hn::Lanes(kTag);
-  const double* W = u.W;
-  for (std::size_t k = 0; k < u.D; ++k, W += u.ldw) {
-    hwy::Prefetch(W + j + next);
-    tile.template add_outer<true>(W + i, W + j);
+  const double* A = u.A;
+  const double* B = u.B;
+  for (std::size_t k = 0; k < u.D; ++k, A += u.lda, B += u.ldb) {
+    tile.template add_outer<true>(A + i, B + j);
   }
   if (u.d != nullptr) {
     tile.template add_outer<false>(u.d + i, u.e + j);
@@ -110,11 +112,14 @@ HWY_INLINE void update_tile(const Update& u, std::size_t i, std::size_t j, std::
   if constexpr (kVectors > 1) update_tile<kRows, kVectors - 1>(u, i, j, vectors);
 }
 
-// The part of columns [left, right) of rows [top, bottom) that lies in the upper triangle, by whole blocks.
+// The first column of row i to be worked on: whole blocks.
+HWY_INLINE std::size_t first_column(const Update& u, std::size_t i) { return u.triangle ? round_down(i) : 0; }
+
+// What of columns [left, right) of rows [top, bottom) is to be worked on.
 HWY_INLINE void update_panel(const Update& u, std::size_t top, std::size_t bottom, std::size_t left,
                              std::size_t right) {
-  for (std::size_t i = top; i < bottom && round_down(i) < right;) {
-    const std::size_t j = std::max(left, round_down(i));
+  for (std::size_t i = top; i < bottom && first_column(u, i) < right;) {
+    const std::size_t j = std::max(left, first_column(u, i));
     const std::size_t vectors = (right - j) / hn::Lanes(kTag);
     if (i % kTileRows == 0 && i + kTileRows <= bottom) {
       update_tile<kTileRows>(u, i, j, vectors);
@@ -126,16 +131,24 @@ HWY_INLINE void update_panel(const Update& u, std::size_t top, std::size_t botto
   }
 }
 
-void update_band(double* P, std::size_t ld, std::size_t n, const double* W, std::size_t ldw, std::size_t D,
-                 const double* d, const double* e, RowBand band) {
-  const Update u{P, ld, W, ldw, D, d, e};
+void update_rows(const Update& u, std::size_t n, RowBand band) {
   const std::size_t width = kTileVectors * hn::Lanes(kTag);
   for (std::size_t top = band.begin; top < band.end;) {
     const std::size_t bottom = std::min(band.end, top - top % kRowBlock + kRowBlock);
-    for (std::size_t left = round_down(top); left < round_up(n); left += width)
+    for (std::size_t left = first_column(u, top); left < round_up(n); left += width)
       update_panel(u, top, bottom, left, std::min(left + width, round_up(n)));
     top = bottom;
   }
+}
+
+void update_band(double* P, std::size_t ld, std::size_t n, const double* A, const double* B, std::size_t ldw,
+                 std::size_t D, const double* d, const double* e, RowBand band) {
+  update_rows({P, ld, A, ldw, B, ldw, D, d, e}, n, band);
+}
+
+void subtract_rows(double* P, std::size_t ld, std::size_t n, const double* A, std::size_t lda,
+                   const double* B, std::size_t ldb, std::size_t D, RowBand band) {
+  update_rows({P, ld, A, lda, B, ldb, D, nullptr, nullptr, false}, n, band);
 }
 
 }  // namespace waymark::kernels::HWY_NAMESPACE
@@ -145,6 +158,7 @@ HWY_AFTER_NAMESPACE();
 namespace waymark::kernels {
 
 HWY_EXPORT(update_band);
+HWY_EXPORT(subtract_rows);
 
 RowBand triangle_band(std::size_t n, std::size_t index, std::size_t count) {
   // The rows [0, i) hold 1 - (1 - i/n)^2 of the area.
@@ -158,12 +172,23 @@ RowBand triangle_band(std::size_t n, std::size_t index, std::size_t count) {
 
 void symmetric_downdate(double* P, std::size_t ld, std::size_t n, const double* W, std::size_t ldw,
                         std::size_t D, RowBand band) {
-  HWY_DYNAMIC_DISPATCH(update_band)(P, ld, n, W, ldw, D, nullptr, nullptr, band);
+  HWY_DYNAMIC_DISPATCH(update_band)(P, ld, n, W, W, ldw, D, nullptr, nullptr, band);
 }
 
 void symmetric_update(double* P, std::size_t ld, std::size_t n, const double* W, std::size_t ldw,
                       std::size_t D, const double* d, const double* e, RowBand band) {
-  HWY_DYNAMIC_DISPATCH(update_band)(P, ld, n, W, ldw, D, d, e, band);
+  HWY_DYNAMIC_DISPATCH(update_band)(P, ld, n, W, W, ldw, D, d, e, band);
+}
+
+void symmetric_product_update(double* P, std::size_t ld, std::size_t n, const double* A, const double* B,
+                              std::size_t ldw, std::size_t D, const double* d, const double* e,
+                              RowBand band) {
+  HWY_DYNAMIC_DISPATCH(update_band)(P, ld, n, A, B, ldw, D, d, e, band);
+}
+
+void subtract_product(double* P, std::size_t ld, std::size_t n, const double* A, std::size_t lda,
+                      const double* B, std::size_t ldb, std::size_t D, RowBand band) {
+  HWY_DYNAMIC_DISPATCH(subtract_rows)(P, ld, n, A, lda, B, ldb, D, band);
 }
 
 namespace reference {

@@ -26,6 +26,17 @@ void symmetric_downdate(double* P, std::size_t ld, std::size_t n, const double* 
 void symmetric_update(double* P, std::size_t ld, std::size_t n, const double* W, std::size_t ldw,
                       std::size_t D, const double* d, const double* e, RowBand band);
 
+/// P += -A^T B + d e^T + e d^T on the rows of `band` of the upper triangle, for A and B: D x n whose product
+/// is symmetric. d and e may be null. What a region of the compressed EKF (Guivant and Nebot 2001) did to the
+/// covariance of the landmarks outside of it has this form, with B = psi A.
+void symmetric_product_update(double* P, std::size_t ld, std::size_t n, const double* A, const double* B,
+                              std::size_t ldw, std::size_t D, const double* d, const double* e, RowBand band);
+
+/// P -= A^T B on the whole rows of `band`, for P with n columns, A with D rows of at least band.end columns
+/// and B: D x n. 2 n D flop per row.
+void subtract_product(double* P, std::size_t ld, std::size_t n, const double* A, std::size_t lda,
+                      const double* B, std::size_t ldb, std::size_t D, RowBand band);
+
 namespace reference {
 
 /// The plain formula on the whole upper triangle; d and e may be null.

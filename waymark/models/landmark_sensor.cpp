@@ -1,6 +1,7 @@
 #include "waymark/models/landmark_sensor.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace waymark {
 namespace {
@@ -27,11 +28,24 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "reported range per metre of true range");
   schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
               "by how much more than that is reported, m");
+  schema.boolean("sensor.range_is_depth", s.range_is_depth,
+                 "the range is measured along the sensor's axis, as a camera does that goes by size");
   schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m");
   schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0},
               "further standard deviation per metre of range");
   schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
               "standard deviation of a bearing, degrees");
+  schema.real(
+      "sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
+      "standard deviation of what all ranges of a log have in common, per metre; the EKF estimates it");
+  schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
+              "the same of all bearings, degrees");
+  schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},
+              "standard deviation of what successive ranges to one landmark have in common, per metre");
+  schema.real("sensor.lasting_bearing_sigma_deg", s.errors.lasting_bearing_sigma_deg, {0.0, 90.0},
+              "the same of bearings, degrees");
+  schema.real("sensor.lasting_way_m", s.errors.lasting_way_m, {1e-3, 1e3},
+              "way after which 37 % of what successive sightings have in common are left, m");
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
@@ -41,9 +55,23 @@ void describe(Schema& schema, LandmarkSensor& s) {
 Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported) {
   const auto range = range_of(reported);
   if (!range) return reported;
-  const double range_m = (*range - sensor.range_offset_m) / sensor.range_scale;
+  double range_m = (*range - sensor.range_offset_m) / sensor.range_scale;
+  if (sensor.range_is_depth) {
+    const double cosine = std::cos(bearing_of(reported).value_or(kPi));
+    range_m = cosine > 0.0 ? range_m / cosine : std::numeric_limits<double>::quiet_NaN();
+  }
   if (const auto bearing = bearing_of(reported)) return RangeBearing{range_m, *bearing};
   return Range{range_m};
+}
+
+LandmarkSensor with_white_errors(LandmarkSensor sensor) {
+  const SensorErrors& e = sensor.errors;
+  sensor.range_sigma_ratio =
+      std::hypot(sensor.range_sigma_ratio, e.shared_range_sigma_ratio, e.lasting_range_sigma_ratio);
+  sensor.bearing_sigma_deg =
+      std::hypot(sensor.bearing_sigma_deg, e.shared_bearing_sigma_deg, e.lasting_bearing_sigma_deg);
+  sensor.errors = {};
+  return sensor;
 }
 
 Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement) {

@@ -9,6 +9,22 @@
 
 namespace waymark {
 
+/// Errors of a sensor that are not drawn anew at every sighting.
+struct SensorErrors {
+  double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
+  double shared_bearing_sigma_deg = 0.0;
+  double lasting_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
+  double lasting_bearing_sigma_deg = 0.0;
+  double lasting_way_m = 0.3;  ///< way after which 37 % of that are left
+
+  [[nodiscard]] bool shares() const {
+    return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0;
+  }
+  [[nodiscard]] bool lasts() const {
+    return lasting_range_sigma_ratio > 0.0 || lasting_bearing_sigma_deg > 0.0;
+  }
+};
+
 /// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
 struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
@@ -16,9 +32,11 @@ struct LandmarkSensor {
   double yaw_deg = 0.0;
   double range_scale = 1.0;     ///< reported range of a landmark at 1 m, less the offset
   double range_offset_m = 0.0;  ///< by how much more than that is reported
+  bool range_is_depth = false;  ///< the range is reported along the sensor's axis, as a camera sees sizes
   double range_sigma_m = 0.05;
   double range_sigma_ratio = 0.0;  ///< further range error per metre of range
   double bearing_sigma_deg = 1.0;
+  SensorErrors errors;
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
   double field_of_view_deg = 360.0;
@@ -29,8 +47,13 @@ struct LandmarkSensor {
 
 void describe(Schema& schema, LandmarkSensor& sensor);
 
-/// What was reported, freed from the sensor's known errors: range = (reported - offset) / scale.
+/// What was reported, freed from the sensor's known errors: range = (reported - offset) / scale, and over
+/// cos(bearing) where it is a depth. A depth beside no bearing, or 90 degrees and more off the axis, is
+/// nothing that can be used (NaN).
 [[nodiscard]] Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported);
+
+/// The same sensor for a filter that knows white noise alone: its noise covers its other errors too.
+[[nodiscard]] LandmarkSensor with_white_errors(LandmarkSensor sensor);
 
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.

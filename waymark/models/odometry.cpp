@@ -57,6 +57,10 @@ void describe(Schema& schema, OdometryOptions& o) {
               "turning error variance per metre driven");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
+  schema.real("motion.outer_point_m", o.outer_point_m, {0.0, 10.0},
+              "how far out, on the outside of a turn, the point is whose speed is reported, m");
+  schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
+              "how much later than its stamp a motion happens, s: a robot takes time to follow a command");
   schema.choice("motion.arc", o.arc, {"exact", "article"},
                 "chord of the exact arc, or k = 1 as in the 2012 article");
 }
@@ -113,8 +117,16 @@ Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options
   return {arc_increment(step, options.arc), Q + slip_covariance(step, options.noise, options.arc)};
 }
 
+/// What the robot's origin does while a point `outer_m` beside it, on the outside of the turn, does the
+/// step's distance; it stands when that point turns around it.
+static double inward(const ArcStep& step, double outer_m) {
+  return std::copysign(std::max(0.0, std::abs(step.distance_m) - outer_m * std::abs(step.turn_rad)),
+                       step.distance_m);
+}
+
 Motion velocity_motion(const Velocity& velocity, double dt_s, const OdometryOptions& options) {
-  const ArcStep step = scaled({velocity.v_mps * dt_s, velocity.w_radps * dt_s}, options);
+  ArcStep step = scaled({velocity.v_mps * dt_s, velocity.w_radps * dt_s}, options);
+  step.distance_m = inward(step, options.outer_point_m);
   return {arc_increment(step, options.arc), slip_covariance(step, options.noise, options.arc)};
 }
 

@@ -8,8 +8,8 @@ Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
     return Error{"observe: only range-bearing can be filtered so far"};
   switch (config.filter) {
     case FilterKind::kEkf:
-      return std::unique_ptr<Filter>(
-          std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor, config.threads));
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor,
+                                                               config.threads, config.sensor.errors));
     case FilterKind::kFastSlam:
       return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, T_robot_sensor,
                                                                 config.seed, config.threads));

@@ -49,12 +49,13 @@ Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const Odometr
       sink_(std::move(sink)),
       odometer_(odometry, options.max_hold_s),
       window_(duration_from_seconds(options.reorder_window_s)),
-      delay_(duration_from_seconds(sensor.delay_s)) {}
+      delay_(duration_from_seconds(sensor.delay_s)),
+      response_(duration_from_seconds(odometry.response_s)) {}
 
 void Pipeline::push(Event event) {
   const bool observed = std::holds_alternative<Observations>(event.content);
   if (!observed && !is_odometry(event.content)) return;
-  if (observed) event.stamp = event.stamp - delay_;
+  event.stamp = observed ? event.stamp - delay_ : event.stamp + response_;
   ++counts_.events;
   if (processed_ && event.stamp < *processed_) {
     ++counts_.late;

@@ -72,6 +72,7 @@ class Pipeline {
   Odometer odometer_;
   Duration window_;
   Duration delay_;
+  Duration response_;  ///< of the robot to what its odometry reports
 
   std::deque<Event> waiting_;  // by stamp
   std::optional<Stamp> processed_;

@@ -78,6 +78,11 @@ Result<void> route(Event event, const OdometryOptions& odometry, Recording& reco
   return {};
 }
 
+/// What each filter is told of the sensor's noise: only the EKF has states for its lasting errors.
+LandmarkSensor sensor_seen_by(const Config& config) {
+  return config.filter == FilterKind::kEkf ? config.sensor : with_white_errors(config.sensor);
+}
+
 }  // namespace
 
 Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
@@ -86,8 +91,8 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   if (!filter) return filter.error();
   Recording recording;
   recording.filter = std::move(*filter);
-  Pipeline pipeline(*recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
-                    [&recording](const Step& step) { keep(recording, step); });
+  Pipeline pipeline(*recording.filter, config.pipeline, config.odometry, sensor_seen_by(config),
+                    config.observe, [&recording](const Step& step) { keep(recording, step); });
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
     return route(std::move(event), config.odometry, recording, pipeline);

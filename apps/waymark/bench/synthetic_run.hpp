@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "waymark/core/motion.hpp"
+#include "waymark/core/observation.hpp"
+
+namespace waymark::app {
+
+/// A robot on a circle in a field of landmarks, one per 16 m^2, in the middle of the square that they fill.
+struct SyntheticRun {
+  struct Step {
+    Motion motion;              ///< 0.3 m ahead, with noise
+    Observations observations;  ///< of the nearest landmarks: 0.05 m, 0.5 deg
+  };
+  Motion start;  ///< no movement, a little uncertainty: every entry of the covariance gets populated
+  Observations first_look;  ///< all landmarks, so that every step runs at the full state size
+  std::vector<Step> steps;
+};
+
+/// `sightings` per step; the same arguments give the same run.
+[[nodiscard]] SyntheticRun make_synthetic_run(int landmarks, int sightings, int steps);
+
+}  // namespace waymark::app

@@ -1,0 +1,105 @@
+#include "waymark/ekf/lasting_errors.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/matrix_near.hpp"
+#include "waymark/core/angle.hpp"
+
+namespace waymark::ekf {
+namespace {
+
+SensorErrors example() {
+  return {.shared_range_sigma_ratio = 0.02,
+          .shared_bearing_sigma_deg = 0.5,
+          .lasting_range_sigma_ratio = 0.01,
+          .lasting_bearing_sigma_deg = 0.3,
+          .lasting_way_m = 2.0};
+}
+
+LandmarkId marker(int number) { return {LandmarkId::Family::kMarker, number}; }
+
+/// The errors of a sensor with a state that has room for them.
+struct Fixture {
+  explicit Fixture(const SensorErrors& sensor)
+      : errors(sensor), state(2, 10, Consistency::kStandard, {}, 1, errors.pairs()) {
+    errors.start(state);
+  }
+
+  /// z - h of a sighting that shows nothing but its errors. The landmark's place is certain.
+  void observe(int number, const Eigen::Vector2d& difference) {
+    const SightingError error = errors.of(state, marker(number), 1.0);
+    Sighting sighting;
+    sighting.nu = difference - error.expected;
+    sighting.errors = error.terms;
+    sighting.R = 1e-12 * Eigen::Matrix2d::Identity() + error.unmodelled;
+    ASSERT_TRUE(state.update({&sighting, 1}));
+  }
+
+  LastingErrors errors;
+  CompressedState state;
+};
+
+TEST(LastingErrors, CostNothingWhereThereAreNone) {
+  Fixture f({});
+  EXPECT_EQ(f.errors.pairs(), 0);
+  f.errors.begin_scan();
+  f.errors.sight(f.state, marker(1));
+  const SightingError error = f.errors.of(f.state, marker(1), 3.0);
+  EXPECT_FALSE(error.terms[0].takes_part());
+  EXPECT_FALSE(error.terms[1].takes_part());
+  EXPECT_TRUE(error.unmodelled.isZero(0.0));
+}
+
+TEST(LastingErrors, GrowWithRange) {
+  Fixture f(example());
+  f.errors.begin_scan();
+  f.errors.sight(f.state, marker(1));
+  const SightingError error = f.errors.of(f.state, marker(1), 5.0);
+  EXPECT_NEAR(error.terms[0].J(0, 0), 0.1, 1e-15);
+  EXPECT_NEAR(error.terms[0].J(1, 1), to_radians(0.5), 1e-15);
+  EXPECT_NEAR(error.terms[1].J(0, 0), 0.05, 1e-15);
+  EXPECT_NEAR(error.terms[1].J(1, 1), to_radians(0.3), 1e-15);
+}
+
+TEST(LastingErrors, AreForgottenAlongTheWay) {
+  SensorErrors sensor = example();
+  sensor.shared_range_sigma_ratio = sensor.shared_bearing_sigma_deg = 0.0;
+  Fixture f(sensor);
+  f.state.add({1.0, 0.0, 0.0}, Eigen::Matrix3d::Zero(), 1e-12 * Eigen::Matrix3d::Identity());
+  f.errors.begin_scan();
+  f.errors.sight(f.state, marker(1));
+  const Eigen::Vector2d seen(0.02, -0.01);
+  f.observe(1, seen);
+  EXPECT_NEAR(f.errors.of(f.state, marker(1), 1.0).expected[0], seen[0], 1e-6) << "standing still";
+
+  f.errors.drive(3.0);
+  f.errors.begin_scan();
+  f.errors.sight(f.state, marker(1));
+  EXPECT_NEAR(f.errors.of(f.state, marker(1), 1.0).expected[0], seen[0] * std::exp(-1.5), 1e-6);
+  f.errors.sight(f.state, marker(2));
+  EXPECT_NEAR(f.errors.of(f.state, marker(2), 1.0).expected[0], 0.0, 1e-12)
+      << "another landmark's are its own";
+}
+
+TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
+  Fixture f(example());
+  f.errors.begin_scan();
+  const int remembered = f.errors.pairs() - 1;
+  for (int number = 0; number <= remembered; ++number) f.errors.sight(f.state, marker(number));
+  const SightingError first = f.errors.of(f.state, marker(0), 2.0);
+  EXPECT_TRUE(first.terms[1].takes_part());
+  EXPECT_TRUE(first.unmodelled.isZero(0.0));
+  const SightingError last = f.errors.of(f.state, marker(remembered), 2.0);
+  EXPECT_FALSE(last.terms[1].takes_part());
+  EXPECT_NEAR(last.unmodelled(0, 0), 0.02 * 0.02, 1e-15);
+
+  f.errors.begin_scan();
+  f.errors.sight(f.state, marker(remembered));
+  EXPECT_TRUE(f.errors.of(f.state, marker(remembered), 2.0).terms[1].takes_part())
+      << "takes over from one that is not in view";
+}
+
+}  // namespace
+}  // namespace waymark::ekf

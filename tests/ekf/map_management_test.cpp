@@ -1,0 +1,100 @@
+#include "waymark/ekf/map_management.hpp"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "support/poses.hpp"
+
+namespace waymark::ekf {
+namespace {
+
+/// A sighting of a landmark that is known to `landmark_sigma_m`, from a pose known to about `pose_scale`.
+PoseSighting make_sighting(RandomStream& random, double pose_scale = 0.1, double landmark_sigma_m = 0.1) {
+  PoseSighting sighting;
+  sighting.P_pose = test::random_covariance<3>(random, pose_scale);
+  for (auto& entry : sighting.H_pose.reshaped()) entry = random.normal();
+  sighting.C_pose = sighting.P_pose * sighting.H_pose.transpose();
+  sighting.S = sighting.H_pose * sighting.C_pose +
+               (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
+  return sighting;
+}
+
+TEST(InformationGain, IsTheLogRatioOfTheDeterminantsOfThePoseCovariance) {
+  RandomStream random(1, StreamPurpose::kWorld);
+  for (int i = 0; i < 100; ++i) {
+    const PoseSighting s = make_sighting(random);
+    const Eigen::Matrix3d after = s.P_pose - s.C_pose * s.S.inverse() * s.C_pose.transpose();
+    EXPECT_NEAR(information_gain(s), 0.5 * std::log(s.P_pose.determinant() / after.determinant()), 1e-6);
+  }
+}
+
+TEST(InformationGain, IsZeroWhereNothingCanBeLearned) {
+  RandomStream random(2, StreamPurpose::kWorld);
+  PoseSighting s = make_sighting(random);
+  s.C_pose.setZero();
+  EXPECT_EQ(information_gain(s), 0.0);
+  s = make_sighting(random);
+  s.P_pose.setZero();
+  s.C_pose.setZero();
+  EXPECT_EQ(information_gain(s), 0.0);
+  s.S.setConstant(std::nan(""));
+  EXPECT_EQ(information_gain(s), 0.0);
+}
+
+TEST(InformationGain, GrowsWithHowWellTheLandmarkIsKnown) {
+  RandomStream random(3, StreamPurpose::kWorld);
+  RandomStream same(3, StreamPurpose::kWorld);
+  EXPECT_GT(information_gain(make_sighting(random, 0.1, 0.01)),
+            information_gain(make_sighting(same, 0.1, 1.0)));
+}
+
+TEST(ArticleScore, IsTheTraceOfTheRobotBlock) {
+  RandomStream random(4, StreamPurpose::kWorld);
+  for (int i = 0; i < 20; ++i) {
+    const PoseSighting s = make_sighting(random);
+    const Eigen::Matrix3d I_KH = Eigen::Matrix3d::Identity() - s.C_pose * s.S.inverse() * s.H_pose;
+    EXPECT_NEAR(article_score(s), I_KH.trace(), 1e-12);
+  }
+}
+
+class BothScores : public testing::TestWithParam<Eviction> {};
+
+TEST_P(BothScores, EvictTheLandmarkThatTellsLeast) {
+  RandomStream random(5, StreamPurpose::kWorld);
+  MapManagement management(GetParam(), 3);
+  management.begin_scan();
+  for (int i = 0; i < 3; ++i) management.added();
+  for (int i = 0; i < 3; ++i) {
+    RandomStream same = random;
+    management.matched(i, make_sighting(same, 0.1, i == 1 ? 3.0 : 0.05));
+  }
+  EXPECT_FALSE(management.least_useful()) << "all were seen in this scan";
+  management.begin_scan();
+  EXPECT_EQ(management.least_useful(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Evictions, BothScores, testing::Values(Eviction::kInformation, Eviction::kArticle));
+
+TEST(MapManagement, ALandmarkThatIsOftenOutsideItsGateCountsLess) {
+  RandomStream random(6, StreamPurpose::kWorld);
+  const PoseSighting sighting = make_sighting(random);
+  MapManagement management(Eviction::kInformation, 2);
+  for (int i = 0; i < 2; ++i) management.added();
+  for (int i = 0; i < 2; ++i) management.matched(i, sighting);
+  management.missed(1);
+  management.begin_scan();
+  EXPECT_EQ(management.least_useful(), 1);
+}
+
+TEST(MapManagement, FollowsTheIndicesOfTheState) {
+  RandomStream random(7, StreamPurpose::kWorld);
+  MapManagement management(Eviction::kInformation, 3);
+  for (int i = 0; i < 3; ++i) management.added();
+  management.matched(1, make_sighting(random));
+  management.removed(0);  // landmark 2, never matched again, is now 0
+  management.begin_scan();
+  EXPECT_EQ(management.least_useful(), 0);
+}
+
+}  // namespace
+}  // namespace waymark::ekf

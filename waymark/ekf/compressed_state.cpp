@@ -1,0 +1,351 @@
+#include "waymark/ekf/compressed_state.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <utility>
+
+#include "waymark/ekf/turn_jacobian.hpp"
+
+namespace waymark::ekf {
+namespace {
+
+/// A region can hold what one update sees and something else.
+constexpr int kSmallestRegion = State::kMaxSightings * 3 / 2;
+/// A region has room for this many times what is seen at once, and a part in so many of it stays for the
+/// next.
+constexpr int kRegionPerView = 3;
+/// Over how many updates the work of a switch of region is spread, if there is time.
+constexpr double kSpread = 256.0;
+
+int region_capacity(int capacity, const Compression& compression) {
+  return std::min(capacity, std::max(compression.onset, kRegionPerView * compression.region));
+}
+
+int slots_for(int capacity, const Compression& compression) {
+  const bool never = capacity <= compression.onset;
+  return never ? 0 : capacity + region_capacity(capacity, compression);
+}
+
+/// P(row, :) J^T for the robot and the errors that something depends on.
+Eigen::Vector2d correlation(const State& state, std::size_t row, const Touched& touched) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (Eigen::Index k = 0; k < touched.head; ++k)
+    sum += state.covariance(row, touched.rows[static_cast<std::size_t>(k)]) * touched.J.col(k).head<2>();
+  return sum;
+}
+
+}  // namespace
+
+CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
+                                 const Compression& compression, int threads, int error_pairs)
+    : capacity_(capacity),
+      compression_{std::max(compression.region, kSmallestRegion),
+                   std::max(compression.onset, kSmallestRegion)},
+      active_(dimension, region_capacity(capacity, compression_), consistency, threads, error_pairs),
+      since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
+      passive_(dimension, active_.head(), slots_for(capacity, compression_),
+               slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
+      local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
+      base_(active_.offset(active_.capacity()), dimension),
+      minus_psi_base_(base_.rows(), dimension),
+      cross_(base_.rows(), dimension) {
+  slots_.reserve(static_cast<std::size_t>(capacity));
+  free_slots_.reserve(local_of_slot_.size());
+  for (auto* by_member : {&seen_, &ranked_}) by_member->reserve(static_cast<std::size_t>(active_.capacity()));
+  members_.reserve(static_cast<std::size_t>(active_.capacity()));
+  local_sightings_.reserve(kMaxSightings);
+}
+
+int CompressedState::limit() const {
+  return std::clamp(kRegionPerView * most_seen_,
+                    compressing_ ? compression_.region : std::min(compression_.onset, capacity_),
+                    active_.capacity());
+}
+
+void CompressedState::predict(const Motion& motion) {
+  active_.predict(motion);
+  seen_this_step_ = 0;
+}
+
+void CompressedState::relax_errors(int pair, double rho) {
+  active_.relax_errors(pair, rho);
+  if (compressing_) since_.relax_errors(pair, rho);
+}
+
+void CompressedState::join() {
+  const Eigen::Vector2d displacement = active_.join_robot_rows();
+  if (compressing_) since_.carry(displacement);
+}
+
+bool CompressedState::update(std::span<const Sighting> sightings) {
+  assert(sightings.size() <= kMaxSightings);
+  bring_in(sightings);
+  join();
+  if (compressing_) since_.project(local_sightings_, active_);
+  const bool done = active_.update(local_sightings_);
+  if (compressing_ && done && !sightings.empty()) since_.absorb(active_.gain());
+  work();
+  return done;
+}
+
+/// All that is sighted enters the region, and the sightings get its indices.
+void CompressedState::bring_in(std::span<const Sighting> sightings) {
+  ++now_;
+  seen_this_step_ += static_cast<int>(sightings.size());
+  most_seen_ = std::max(most_seen_, seen_this_step_);
+  for (const Sighting& sighting : sightings)
+    if (is_active(sighting.landmark)) seen_[static_cast<std::size_t>(local_of(sighting.landmark))] = now_;
+  for (const Sighting& sighting : sightings)
+    if (!is_active(sighting.landmark)) activate(slot_of(sighting.landmark));
+  local_sightings_.assign(sightings.begin(), sightings.end());
+  for (Sighting& sighting : local_sightings_) sighting.landmark = local_of(sighting.landmark);
+}
+
+/// An even share; and more if more work than room is left, halfway through the region and later, so that none
+/// is left when it is full.
+void CompressedState::work() {
+  const double room_left =
+      std::max(limit() - active_.landmarks(), 0) / static_cast<double>(std::max(room_, 1));
+  const double due = passive_.remaining() - closing_work_ * std::min(1.0, 2.0 * room_left);
+  passive_.work(std::max(closing_work_ / kSpread, due));
+}
+
+int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose,
+                         const Eigen::Matrix3d& noise, const ErrorTerms& errors) {
+  assert(landmarks() < capacity_);
+  ++seen_this_step_;
+  most_seen_ = std::max(most_seen_, seen_this_step_);
+  make_room();
+  const int slot = take_slot();
+  join();
+  if (compressing_) {
+    passive_.clear(slot);
+    since_.append_new(dimension(), G_pose, errors);
+  }
+  active_.add(position, G_pose, noise, errors);
+  enter(slot);
+  slots_.push_back(slot);
+  return landmarks() - 1;
+}
+
+void CompressedState::remove(int index) {
+  assert(index >= 0 && index < landmarks());
+  const int slot = slot_of(index);
+  const int local = local_of(index);
+  if (local < 0) free_slots_.push_back(slot);
+  if (local >= 0) seen_[static_cast<std::size_t>(local)] = kRemoved;
+  if (local >= 0 && !compressing_)
+    leave(local);  // else when the region is closed: the accumulators still need it
+  slots_[static_cast<std::size_t>(index)] = slots_.back();
+  slots_.pop_back();
+}
+
+int CompressedState::take_slot() {
+  // What left with the last region is needed until the work for it is done.
+  const bool fresh = used_slots_ < static_cast<int>(local_of_slot_.size());
+  if (free_slots_.empty() || (!passive_.done() && fresh)) return used_slots_++;
+  passive_.finish();
+  const int slot = free_slots_.back();
+  free_slots_.pop_back();
+  return slot;
+}
+
+void CompressedState::enter(int slot) {
+  local_of_slot_[static_cast<std::size_t>(slot)] = static_cast<int>(members_.size());
+  members_.push_back(slot);
+  seen_.push_back(now_);
+}
+
+void CompressedState::leave(int local) {
+  const auto at = static_cast<std::size_t>(local);
+  const int slot = members_[at];
+  if (seen_[at] == kRemoved) free_slots_.push_back(slot);
+  active_.remove(local);
+  members_[at] = members_.back();
+  seen_[at] = seen_.back();
+  local_of_slot_[static_cast<std::size_t>(members_[at])] = local;
+  local_of_slot_[static_cast<std::size_t>(slot)] = -1;
+  members_.pop_back();
+  seen_.pop_back();
+}
+
+void CompressedState::activate(int slot) {
+  make_room();
+  join();
+  const Recalled recalled = recall(slot);
+  const auto n = static_cast<Eigen::Index>(active_.size());
+  since_.append_known(base_.topRows(n), recalled.shear);
+  active_.insert(recalled.position, passive_.first_estimate(slot), cross_.data(),
+                 static_cast<std::size_t>(cross_.outerStride()), recalled.covariance);
+  enter(slot);
+}
+
+void CompressedState::make_room() {
+  if (active_.landmarks() >= limit()) close_region();
+}
+
+void CompressedState::close_region() {
+  join();
+  passive_.finish();
+  passive_.close(members_, active_, compressing_ ? &since_ : nullptr);
+  let_the_others_leave();
+  since_.restart(active_.size());
+  closing_work_ = passive_.remaining();
+  compressing_ = true;
+  most_seen_ = seen_this_step_;
+  room_ = limit() - active_.landmarks();
+  ++closed_regions_;
+}
+
+/// All but those seen last.
+void CompressedState::let_the_others_leave() {
+  const int in_view = std::min(seen_this_step_, kMaxSightings);
+  const auto stay = static_cast<std::size_t>(std::max(limit() / kRegionPerView, in_view));
+  Clock oldest = 0;
+  std::ptrdiff_t as_old = active_.landmarks();
+  if (stay < seen_.size()) {
+    ranked_ = seen_;
+    std::nth_element(ranked_.begin(), ranked_.begin() + static_cast<std::ptrdiff_t>(stay) - 1, ranked_.end(),
+                     std::greater<>());
+    oldest = ranked_[stay - 1];
+    as_old = static_cast<std::ptrdiff_t>(stay) -
+             std::ranges::count_if(seen_, [&](Clock seen) { return seen > oldest; });
+  }
+  for (int local = active_.landmarks() - 1; local >= 0; --local) {
+    const Clock seen = seen_[static_cast<std::size_t>(local)];
+    const bool stays = seen != kRemoved && (seen > oldest || (seen == oldest && as_old-- > 0));
+    if (!stays) leave(local);
+  }
+}
+
+/// What the region's corrections did to a passive landmark, whose columns are in base_.
+Eigen::Vector3d CompressedState::displacement(int slot) const {
+  const auto n = static_cast<Eigen::Index>(active_.size());
+  passive_.columns(slot, members_, base_.topRows(n));
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  moved.head(dimension()).noalias() =
+      base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
+  if (active_.consistency() == Consistency::kInvariant)
+    moved.head<2>() = (turn_jacobian(since_.turn()) * moved.head<2>()).eval();
+  return moved;
+}
+
+CompressedState::Recalled CompressedState::recall(int slot) const {
+  const Eigen::Vector3d moved = displacement(slot);
+  Recalled now{passive_.position(slot) + moved, Eigen::Vector3d::Zero(), passive_.covariance(slot)};
+  if (active_.consistency() == Consistency::kInvariant) now.shear << -moved.y(), moved.x(), 0.0;
+  const auto n = static_cast<Eigen::Index>(active_.size());
+  for (int a = 0; a < dimension(); ++a) {
+    since_.multiply_phi(base_.col(a).head(n), cross_.col(a).head(n));
+    since_.multiply_minus_psi(base_.col(a).head(n), minus_psi_base_.col(a).head(n));
+    cross_.col(a).head<2>() += active_.pending() * cross_(2, a);
+  }
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();
+  c.head(dimension()) = cross_.row(2);
+  now.covariance.topLeftCorner(dimension(), dimension()).noalias() +=
+      base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
+  now.covariance += now.shear * c.transpose() + c * now.shear.transpose() +
+                    active_.covariance(2, 2) * now.shear * now.shear.transpose();
+  for (Eigen::Index i = 0; i < n; ++i)
+    cross_.row(i) +=
+        active_.covariance(static_cast<std::size_t>(i), 2) * now.shear.head(dimension()).transpose();
+  return now;
+}
+
+Eigen::Vector3d CompressedState::landmark(int index) const {
+  if (is_active(index)) return active_.landmark(local_of(index));
+  return passive_.position(slot_of(index)) + displacement(slot_of(index));
+}
+
+Eigen::Matrix3d CompressedState::landmark_covariance(int index) const {
+  return is_active(index) ? active_.landmark_covariance(local_of(index)) : recall(slot_of(index)).covariance;
+}
+
+Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
+  if (is_active(index)) return active_.linearization_landmark(local_of(index));
+  return active_.consistency() == Consistency::kFej ? passive_.first_estimate(slot_of(index))
+                                                    : landmark(index);
+}
+
+Sighting CompressedState::in_active(const Sighting& sighting) const {
+  Sighting local = sighting;
+  local.landmark = local_of(sighting.landmark);
+  return local;
+}
+
+Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
+  if (is_active(sighting.landmark)) return active_.innovation_covariance(in_active(sighting));
+  const Recalled now = recall(slot_of(sighting.landmark));
+  const Touched head(sighting.H_pose, sighting.errors);
+  const auto H_landmark = sighting.H_landmark.leftCols(dimension());
+  Eigen::Matrix2d S = sighting.R + sighting.H_landmark * now.covariance * sighting.H_landmark.transpose();
+  for (Eigen::Index k = 0; k < head.head; ++k) {
+    const std::size_t row = head.rows[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d J = head.J.col(k).head<2>();
+    const Eigen::Matrix2d cross = J * (cross_.row(static_cast<Eigen::Index>(row)) * H_landmark.transpose());
+    S += J * correlation(active_, row, head).transpose() + cross + cross.transpose();
+  }
+  return S;
+}
+
+Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& sighting) const {
+  if (is_active(sighting.landmark)) return active_.pose_correlation(in_active(sighting));
+  (void)recall(slot_of(sighting.landmark));
+  const Touched head(sighting.H_pose, sighting.errors);
+  Eigen::Matrix<double, 3, 2> C = cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
+  for (int i = 0; i < 3; ++i) C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
+  return C;
+}
+
+Eigen::VectorXd CompressedState::mean() const {
+  Eigen::VectorXd x(3 + dimension() * landmarks());
+  const Pose2 robot = pose().T_world_robot;
+  x.head<3>() << robot.x_m, robot.y_m, robot.theta_rad;
+  for (int i = 0; i < landmarks(); ++i)
+    x.segment(3 + dimension() * i, dimension()) = landmark(i).head(dimension());
+  return x;
+}
+
+/// With A the active rows: P_AA from the active state, P_AB from recall(), P_BB = P_BB0 - B^T psi B and its
+/// shear.
+Eigen::MatrixXd CompressedState::covariance() const {
+  passive_.finish();
+  const Eigen::Index n = row(landmarks());
+  const auto n_active = static_cast<Eigen::Index>(active_.size());
+  Eigen::MatrixXd base = Eigen::MatrixXd::Zero(n_active, n);
+  Eigen::MatrixXd minus_psi_base = base;
+  Eigen::MatrixXd cross = base;
+  Eigen::VectorXd shear = Eigen::VectorXd::Zero(n);
+  for (int i = 0; i < landmarks(); ++i) {
+    if (is_active(i)) continue;
+    shear.segment(row(i), dimension()) = recall(slot_of(i)).shear.head(dimension());
+    base.middleCols(row(i), dimension()) = base_.topRows(n_active);
+    minus_psi_base.middleCols(row(i), dimension()) = minus_psi_base_.topRows(n_active);
+    cross.middleCols(row(i), dimension()) = cross_.topRows(n_active);
+  }
+  const Eigen::VectorXd heading = cross.row(2);  // the shear is in it already
+  Eigen::MatrixXd P = base.transpose() * minus_psi_base + shear * heading.transpose() +
+                      heading * shear.transpose() - active_.covariance(2, 2) * shear * shear.transpose();
+  const auto place = [this](Eigen::Index i) {
+    const auto index = static_cast<int>(i - 3) / dimension();
+    const auto coordinate = static_cast<std::size_t>((i - 3) % dimension());
+    if (i < 3) return std::pair{true, static_cast<std::size_t>(i)};
+    if (is_active(index)) return std::pair{true, active_.offset(local_of(index)) + coordinate};
+    return std::pair{false, passive_.offset(slot_of(index)) + coordinate};
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto [i_active, a] = place(i);
+    for (Eigen::Index j = i; j < n; ++j) {
+      const auto [j_active, b] = place(j);
+      if (i_active && j_active) P(i, j) = active_.covariance(a, b);
+      if (i_active && !j_active) P(i, j) = cross(static_cast<Eigen::Index>(a), j);
+      if (!i_active && j_active) P(i, j) = cross(static_cast<Eigen::Index>(b), i);
+      if (!i_active && !j_active) P(i, j) += passive_.covariance(a, b);
+      P(j, i) = P(i, j);
+    }
+  }
+  return P;
+}
+
+}  // namespace waymark::ekf

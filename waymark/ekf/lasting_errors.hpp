@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "waymark/core/observation.hpp"
+#include "waymark/ekf/compressed_state.hpp"
+#include "waymark/models/landmark_sensor.hpp"
+
+namespace waymark::ekf {
+
+/// What lasting errors do to one sighting z = h + e + v: e = sum of J times the pairs of the state.
+struct SightingError {
+  ErrorTerms terms = {};
+  Eigen::Vector2d expected = Eigen::Vector2d::Zero();    ///< e as the state believes it
+  Eigen::Matrix2d unmodelled = Eigen::Matrix2d::Zero();  ///< covariance of what no pair stands for
+};
+
+/// Errors of the sensor that outlive a sighting, as states of the filter (the shaping filter of Bryson and
+/// Henrikson 1968). Pair 0 is what all sightings share, a calibration; the others are lent to the landmarks
+/// that were seen last, each a Gauss-Markov process along the way: what two sightings of one landmark have in
+/// common falls with exp(-way / lasting_way_m).
+///
+/// White noise in its place is wrong in one of two ways: as large as the errors are it hides how well
+/// successive sightings agree (NIS far below 1), as small as they scatter it takes what is repeated for news
+/// (NEES far above 3).
+class LastingErrors {
+ public:
+  explicit LastingErrors(const SensorErrors& sensor);
+
+  /// Pairs that the state must have.
+  [[nodiscard]] int pairs() const { return static_cast<int>(loans_.size()) + first_loan_; }
+
+  /// Before the first sighting.
+  void start(CompressedState& state) const;
+  void drive(double way_m) { way_m_ += way_m; }
+  void begin_scan() { ++scan_; }
+  /// A landmark is about to be sighted, for the first time in this scan: its pair drifts as far as it has to.
+  void sight(CompressedState& state, LandmarkId landmark);
+  /// What is in a sighting of a landmark after sight(). Range-bearing: metres and radians.
+  [[nodiscard]] SightingError of(const CompressedState& state, LandmarkId landmark, double range_m) const;
+
+ private:
+  struct Loan {
+    LandmarkId landmark;
+    double way_m = 0.0;  ///< when last seen
+    int scan = 0;        ///< the same
+  };
+
+  [[nodiscard]] int find(LandmarkId landmark) const;
+  [[nodiscard]] int oldest() const;
+
+  SensorErrors sensor_;
+  int first_loan_;
+  std::vector<Loan> loans_;  // by pair, less first_loan_
+  double way_m_ = 0.0;
+  int scan_ = 0;
+};
+
+}  // namespace waymark::ekf

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace waymark::ekf {
+
+/// Which landmark makes room for a new one when the map is full.
+enum class Eviction {
+  kInformation,  ///< the one whose sightings tell least about where the robot is
+  kArticle,      ///< the one with the largest robot block of I - K H, as Vincke et al. 2012
+  kNone,         ///< none: the new one is refused
+};
+
+/// One sighting against the robot's pose, all before the update: P_pose its covariance, C_pose = P(pose, :)
+/// H^T, S = H P H^T + R.
+struct PoseSighting {
+  Eigen::Matrix3d P_pose;
+  Eigen::Matrix<double, 3, 2> C_pose;
+  Eigen::Matrix2d S;
+  Eigen::Matrix<double, 2, 3> H_pose;
+};
+
+/// What the sighting tells about the pose: 1/2 log(|P| / |P - C S^-1 C^T|) nats, never negative, the same in
+/// all units. 1e-12 I is added to P, which is singular at a known start. 0 if S is not positive definite.
+[[nodiscard]] double information_gain(const PoseSighting& sighting);
+
+/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2009): 3 for a
+/// sighting that tells nothing. It adds metres to radians, and is kept for comparison.
+[[nodiscard]] double article_score(const PoseSighting& sighting);
+
+/// Remembers how useful the landmarks have been, by their index in the state. Landmarks of the present scan
+/// are never evicted. Nothing but added() beyond the capacity allocates.
+class MapManagement {
+ public:
+  MapManagement(Eviction eviction, int capacity);
+
+  [[nodiscard]] bool evicts() const { return eviction_ != Eviction::kNone; }
+
+  void begin_scan() { ++scan_; }
+  /// A landmark was appended.
+  void added();
+  /// The landmark was sighted where it was expected.
+  void matched(int landmark, const PoseSighting& sighting);
+  /// The landmark was sighted, but outside its gate.
+  void missed(int landmark);
+  /// The landmark was removed and the last one took its index.
+  void removed(int landmark);
+
+  /// Which one to evict; nothing if all landmarks belong to the present scan. O(landmarks).
+  [[nodiscard]] std::optional<int> least_useful() const;
+
+ private:
+  struct Record {
+    double gain = 0.0;  ///< moving average over the matches
+    int matches = 0;
+    int sightings = 0;
+    std::int64_t scan = 0;  ///< the last one in which it was matched or added
+  };
+
+  [[nodiscard]] double usefulness(const Record& record) const;
+
+  Eviction eviction_;
+  std::int64_t scan_ = 0;
+  std::vector<Record> records_;
+};
+
+}  // namespace waymark::ekf
