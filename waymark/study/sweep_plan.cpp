@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "waymark/slam/make_filter.hpp"
+
 namespace waymark::study {
 namespace {
 
@@ -37,6 +39,18 @@ std::vector<SweepPoint> points_of(const std::vector<Axis>& block, const std::vec
     points = std::move(longer);
   }
   return points;
+}
+
+/// What a filter can work from.
+Axis observable(FilterKind filter) {
+  Axis axis{"observe", {}};
+  for (const Observe observe : {Observe::kRangeBearing, Observe::kRange, Observe::kBearing}) {
+    Config config;
+    config.filter = filter;
+    config.observe = observe;
+    if (make_filter(config)) axis.values.push_back(describe(config).value("observe"));
+  }
+  return axis;
 }
 
 /// FNV-1a.
@@ -105,12 +119,11 @@ SweepPlan study_plan() {
   constexpr int kSeeds = 20;
   Axis seed{std::string(kSeed), {}};
   for (int i = 1; i <= kSeeds; ++i) seed.values.push_back(std::to_string(i));
-  const Axis observe{"observe", {"range-bearing"}};
   const Axis particles{"fastslam.particles", {"10", "30", "75", "150", "400", "1000"}};
-  return {
-      .input = "sim:study",
-      .user = {},
-      .blocks = {{seed, {"filter", {"fastslam"}}, observe, particles}, {seed, {"filter", {"ekf"}}, observe}}};
+  return {.input = "sim:study",
+          .user = {},
+          .blocks = {{seed, {"filter", {"fastslam"}}, observable(FilterKind::kFastSlam), particles},
+                     {seed, {"filter", {"ekf"}}, observable(FilterKind::kEkf)}}};
 }
 
 }  // namespace waymark::study
