@@ -30,7 +30,7 @@ class World {
       const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
       const double radius_m = kRadius_m + side * random_.uniform(kLeastOffset_m, kLargestOffset_m);
       const double angle_rad = random_.uniform(-kPi, kPi);
-      landmarks_.push_back(kCentre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+      landmarks_.emplace_back(kCentre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
     }
   }
 
