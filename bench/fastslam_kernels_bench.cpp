@@ -49,7 +49,7 @@ class Block {
 
 void count_items(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kCount));
-  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations() * kCount) * 1e-9,
+  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * kCount * 1e-9,
                                             benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 

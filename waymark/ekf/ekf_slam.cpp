@@ -21,6 +21,7 @@ const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 // units of the noise: a fifth of its standard deviation.
 constexpr double kNegligible = 0.04;
 constexpr double kStudentDof = 4.0;
+constexpr int kStudentIterations = 3;
 
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
@@ -50,11 +51,11 @@ void describe(Schema& schema, EkfOptions& options) {
       "ekf.evict", options.evict, {"information", "article", "none"},
       "which landmark leaves a full map: the one that told least about the pose, the one of largest I - K H "
       "as in the article, or none, so that new ones are refused");
-  schema.integer(
-      "ekf.iterations", options.iterations, {0, 20},
-      "how often an update may be linearised anew, where it moves the estimate so far that it has to");
-  schema.choice("ekf.likelihood", options.likelihood, {"gaussian", "student"},
-                "student: heavy tails, for sensors with outliers that no gate finds");
+  schema.integer("ekf.iterations", options.iterations, {0, 20},
+                 "how often an update may be linearised anew where it leaves the linear; 0: never");
+  schema.choice(
+      "ekf.likelihood", options.likelihood, {"gaussian", "student"},
+      "student: heavy tails, for outliers that no gate finds; takes up to 3 iterations in any case");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
                 "whether a large map is updated region by region, at the cost of a small one; auto: once it "
                 "is large enough to gain");
@@ -279,7 +280,9 @@ void EkfSlam::collect(std::size_t index, const Observation& observation) {
 /// innovation covariance is not positive definite.
 bool EkfSlam::refine(std::span<const Observation> observations) {
   if (options_.consistency == ekf::Consistency::kFej) return true;
-  for (int i = 0; i < options_.iterations && relinearize(observations); ++i)
+  const bool reweights = options_.likelihood == ekf::Likelihood::kStudent;
+  const int most = reweights ? std::max(options_.iterations, kStudentIterations) : options_.iterations;
+  for (int i = 0; i < most && relinearize(observations); ++i)
     if (!state_.propose(sightings_)) return false;
   return true;
 }

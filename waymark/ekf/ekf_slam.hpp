@@ -31,7 +31,7 @@ struct EkfOptions {
   int capacity = 1000;
   ekf::Eviction evict = ekf::Eviction::kInformation;
   Compress compressed = Compress::kAuto;
-  int iterations = 3;  ///< how often an update may be linearised anew where it leaves the linear
+  int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };

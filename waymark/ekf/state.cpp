@@ -149,7 +149,8 @@ Touched State::touched(const Sighting& sighting, int rows) const {
   Touched t(sighting.H_pose.topRows(rows), sighting.errors, dimension_);
   t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(rows, dimension_);
   for (int k = 0; k < dimension_; ++k)
-    t.rows[static_cast<std::size_t>(t.head + k)] = offset(sighting.landmark) + static_cast<std::size_t>(k);
+    t.rows[static_cast<std::size_t>(t.head) + static_cast<std::size_t>(k)] =
+        offset(sighting.landmark) + static_cast<std::size_t>(k);
   return t;
 }
 

@@ -39,7 +39,7 @@ struct Gain {
   std::size_t rows;  ///< D, measurement rows
   std::size_t ld;    ///< stride of W
   const double* W;   ///< D x n: L^-1 H P, so that P <- P - W^T W
-  std::size_t ld_L;  ///< stride of L
+  std::size_t ld_l;  ///< stride of L
   const double* L;   ///< D x D, lower: L L^T = H P H^T + R
   const double* nu;  ///< D: L^-1 nu, so that dx = W^T nu
   const double*
