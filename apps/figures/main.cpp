@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
   compressed->callback([&] { status = waymark::compressed(frames, threads); });
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
-  waymark::add_consistency(app);
+  waymark::add_consistency(app, status);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

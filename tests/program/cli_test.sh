@@ -119,7 +119,30 @@ status=$?
 "$waymark" demo -o demo --json | node -e 'JSON.parse(require("fs").readFileSync(0))' || fail 'demo --json prints no JSON'
 [ -s demo/report.html ] || fail 'demo wrote no report'
 
-# Every level of help shows an example.
+# The bench: every figure with its name, what it depends on, a positive value and a unit.
+refuses 2 'ekf' bench ukf
+does bench ekf --quick
+grep -q 'ekf.step ' out.txt || fail 'bench prints no step'
+does bench ekf --quick --json
+node -e '
+  const { machine, results } = JSON.parse(require("fs").readFileSync(0));
+  const keys = {"ekf.step": "landmarks sightings mode", "ekf.step_wall": "landmarks sightings threads",
+    "ekf.plain_rank_update": "landmarks sightings", "ekf.plain_rank_update_ratio": "landmarks sightings",
+    "ekf.plain_textbook": "landmarks sightings", "ekf.plain_textbook_ratio": "landmarks sightings",
+    "ekf.flop_bound": "landmarks sightings", "ekf.flop_bound_distance": "landmarks sightings",
+    "ekf.block": "landmarks sightings block"};
+  const expect = (good, what) => { if (!good) { console.error(what); process.exitCode = 1; } };
+  for (const key of ["cpu", "cores", "instruction_set", "fma_gflops", "version", "compiler"])
+    expect(machine[key], "machine." + key);
+  for (const name in keys) expect(results.some((r) => r.name === name), "no " + name);
+  for (const mode of ["invariant", "standard", "compressed invariant", "compressed standard"])
+    expect(results.some((r) => r.name === "ekf.step" && r.params.mode === mode), "no mode " + mode);
+  for (const r of results) {
+    expect(Object.keys(r).join(" ") === "name params value unit", "keys of " + JSON.stringify(r));
+    expect(Object.keys(r.params).join(" ") === keys[r.name], "params of " + JSON.stringify(r));
+    expect(r.value > 0 && ["ms", "us", "x"].includes(r.unit), "value or unit of " + JSON.stringify(r));
+  }' <out.txt || fail 'bench --json is not what it should be'
+
 # A sweep: mistakes, a table, and going on after it was killed.
 refuses 2 'close keys: fastslam.particles' sweep sim:square -o s --axis particles=1,2
 refuses 2 'nothing varies' sweep sim:square -o s
@@ -153,7 +176,8 @@ else
   echo 'SKIPPED: no mpirun on this machine'
 fi
 
-for command in '' run demo sim eval sweep check config; do
+# Every level of help shows an example.
+for command in '' run demo sim eval sweep check bench config; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

@@ -9,6 +9,7 @@
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark::test {
@@ -50,6 +51,10 @@ class CircleWorld {
 
   [[nodiscard]] const Pose2& truth() const { return truth_; }
   [[nodiscard]] const Pose2& mount() const { return mount_; }
+  [[nodiscard]] LandmarkSensor sensor() const {
+    return {
+        .x_m = mount_.x_m, .y_m = mount_.y_m, .yaw_deg = to_degrees(mount_.theta_rad), .max_range_m = 20.0};
+  }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& landmarks() const { return landmarks_; }
 
  private:

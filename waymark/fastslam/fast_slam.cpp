@@ -12,7 +12,11 @@
 namespace waymark {
 namespace {
 
-enum Block : std::size_t { kAssociate, kPredict, kUpdate, kEstimate, kResample, kAdd };
+using kernels::LandmarkForm;
+using kernels::SeenLandmark;
+using kernels::SightingKind;
+
+enum Block : std::size_t { kAssociate, kCompare, kUpdate, kEstimate, kResample, kAdd };
 
 // Particles draw from the collected motion at the latest when its heading is this unsure: a Gaussian (x, y,
 // theta) is then still a good picture of it, the sagitta 1 - cos(3 sigma) being 0.4 % of the distance.
@@ -26,22 +30,50 @@ constexpr int kMostGatedInARow = 5;
 // bearing.
 constexpr double kMetresPerRadian = 0.3;
 
+// What a float can tell: a sensor is not believed to be sharper than that, as a part of its range and in rad.
+constexpr double kSharpestSigma = 1e-6;
+
+// Whether a landmark may become a point is asked at every so many sightings of it.
+constexpr int kSightingsPerRefinement = 4;
+
 bool is_finite(const Motion& motion) {
   const Pose2& T = motion.increment;
   return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
          motion.covariance.allFinite();
 }
 
-bool is_positive_definite(const Eigen::Matrix2d& R) {
-  return R.allFinite() && R(0, 0) > 0.0 && R.determinant() > 0.0;
+/// The numbers of a measurement; what was not measured is 0.
+struct Measured {
+  SightingKind kind = SightingKind::kRangeBearing;
+  double range_m = 0.0;
+  double bearing_rad = 0.0;
+};
+
+std::optional<Measured> measured(const Measurement& value) {
+  if (const auto* z = std::get_if<RangeBearing>(&value))
+    return Measured{SightingKind::kRangeBearing, z->range_m, z->bearing_rad};
+  if (const auto* z = std::get_if<Range>(&value)) return Measured{SightingKind::kRange, z->range_m, 0.0};
+  if (const auto* z = std::get_if<Bearing>(&value))
+    return Measured{SightingKind::kBearing, 0.0, z->bearing_rad};
+  return std::nullopt;
 }
 
-/// What an observation must bring before anything else is asked: its kind, finite numbers, noise.
+int dimension(SightingKind kind) { return kind == SightingKind::kRangeBearing ? 2 : 1; }
+
+bool is_positive_definite(const Eigen::Matrix2d& R, SightingKind kind) {
+  if (!R.allFinite() || !(R(0, 0) > 0.0)) return false;
+  return dimension(kind) == 1 || R.determinant() > 0.0;
+}
+
+/// What an observation must bring before anything else is asked: its kind, numbers that are finite as floats,
+/// noise.
 bool is_usable(const Observation& observation) {
-  const auto* z = std::get_if<RangeBearing>(&observation.value);
-  return z != nullptr && std::isfinite(z->range_m) && std::isfinite(z->bearing_rad) &&
-         z->range_m > kMinDistance_m && observation.covariance &&
-         is_positive_definite(*observation.covariance);
+  const auto z = measured(observation.value);
+  if (!z || !observation.covariance) return false;
+  const bool has_range = z->kind != SightingKind::kBearing;
+  return std::isfinite(static_cast<float>(z->range_m)) && std::isfinite(z->bearing_rad) &&
+         (!has_range || z->range_m > kMinDistance_m) &&
+         is_positive_definite(*observation.covariance, z->kind);
 }
 
 /// The belief's spread as a motion from its mean.
@@ -52,11 +84,24 @@ Motion spread_of(const PoseEstimate& pose) {
   return spread;
 }
 
+kernels::SensorMount mount_of(const LandmarkSensor& sensor) {
+  const double yaw_rad = to_radians(sensor.yaw_deg);
+  return {static_cast<float>(sensor.x_m),
+          static_cast<float>(sensor.y_m),
+          static_cast<float>(std::cos(yaw_rad)),
+          static_cast<float>(std::sin(yaw_rad)),
+          static_cast<float>(0.5 * to_radians(sensor.field_of_view_deg)),
+          static_cast<float>(1.0 / std::max(sensor.max_range_m, kMinDistance_m))};
+}
+
 }  // namespace
 
 void describe(Schema& schema, FastSlamOptions& o) {
   schema.choice("fastslam.proposal", o.proposal, {"1.0", "2.0"},
                 "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and sightings");
+  schema.choice("fastslam.init", o.init, {"anchored", "guess"},
+                "a landmark seen by range or bearing alone begins as all that this allows, or each particle "
+                "guesses where it is");
   schema.integer("fastslam.particles", o.particles, {1, 10'000'000}, "number of particles");
   schema.real("fastslam.resample_below", o.resample_below, {0.0, 1.0},
               "resample when the effective number of particles falls below this part of them");
@@ -71,23 +116,23 @@ void describe(Schema& schema, FastSlamOptions& o) {
   schema.integer("fastslam.capacity", o.capacity, {1, 1'000'000}, "most landmarks in the map");
 }
 
-FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor,
+FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
                    std::uint64_t seed, int threads, const PoseEstimate& initial)
     : options_(options),
       gate_(gate),
-      T_robot_sensor_(T_robot_sensor),
+      sensor_(sensor),
+      mount_(mount_of(sensor)),
       seed_(seed),
       particle_blocks_(options.particles, threads),
       particles_(options.particles, initial.T_world_robot),
       store_(particle_blocks_),
-      proposal_(options.particles),
-      log_likelihood_(static_cast<std::size_t>(options.particles)),
-      ancestors_(static_cast<std::size_t>(options.particles)),
+      gate_sample_(options.particles),
+      ancestors_(particle_blocks_.capacity()),
       index_(static_cast<std::size_t>(options.capacity)),
       estimate_(initial) {
   if (!initial.covariance.isZero(0.0))
-    fastslam::move(particles_, spread_of(initial), {seed_, StreamPurpose::kInitialisation, 0},
-                   particle_blocks_);
+    fastslam::step(particles_, spread_of(initial), initial.T_world_robot.position(), {},
+                   {seed_, StreamPurpose::kInitialisation, 0}, particle_blocks_);
 }
 
 void FastSlam::predict(const Motion& motion) {
@@ -97,34 +142,36 @@ void FastSlam::predict(const Motion& motion) {
   moved_ = true;
   if (pending_.covariance(2, 2) < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;
   BlockTimer timer(table_);
+  accepted_.clear();
   move_particles();
   estimate_ = fastslam::estimate(particles_, particle_blocks_);
-  timer.finish(kPredict);
+  timer.finish(kUpdate);
 }
 
+/// The particles make the motion that they owe, and take in the accepted sightings.
 void FastSlam::move_particles() {
-  if (is_still(pending_)) return;
+  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
   estimate_ = pose();
-  fastslam::move(particles_, pending_, {seed_, StreamPurpose::kMotion, step_++}, particle_blocks_);
+  fastslam::step(particles_, pending_, origin_m, accepted_, {seed_, StreamPurpose::kMotion, step_++},
+                 particle_blocks_);
   pending_ = {};
 }
 
 const Correction& FastSlam::correct(std::span<const Observation> observations) {
   BlockTimer timer(table_);
   associate(observations);
-  timer.finish(kAssociate);
   correction_ = {innovations_, {}};
+  timer.finish(kAssociate);
   if (!any(Outcome::kMatched) && !any(Outcome::kAdded)) return correction_;
 
-  if (options_.proposal == ProposalKind::kMotion) move_particles();
-  timer.finish(kPredict);
-  if (options_.proposal == ProposalKind::kMotion)
-    update(observations);
-  else
-    propose(observations);
+  compare(observations);
+  timer.finish(kCompare);
+  move_particles();
+  if (any(Outcome::kMatched)) weigh();
   timer.finish(kUpdate);
   if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
+  refine(observations);
   resample();
   timer.finish(kResample);
   add(observations);
@@ -135,10 +182,6 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
 
 bool FastSlam::any(Outcome outcome) const {
   return std::ranges::any_of(innovations_, [outcome](const Innovation& i) { return i.outcome == outcome; });
-}
-
-std::span<const double> FastSlam::weights() const {
-  return {particles_.weight.data(), particles_.weight.size()};
 }
 
 void FastSlam::associate(std::span<const Observation> observations) {
@@ -162,78 +205,50 @@ Outcome FastSlam::screen(std::size_t index, const Observation& observation) cons
   };
   const auto end = innovations_.begin() + static_cast<std::ptrdiff_t>(index);
   if (std::any_of(innovations_.begin(), end, seen_before)) return Outcome::kDuplicate;
-  return index_.find(*observation.id) ? Outcome::kMatched : Outcome::kAdded;
+  const auto landmark = index_.find(*observation.id);
+  if (!landmark) return Outcome::kAdded;
+  const bool fits = fastslam::can_take(store_.form(*landmark), measured(observation.value)->kind);
+  return fits ? Outcome::kMatched : Outcome::kUnusable;
 }
 
-fastslam::Sighting FastSlam::sighting(const Observation& observation) const {
-  return {std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_};
+SeenLandmark FastSlam::seen(const Observation& observation) const {
+  const Measured z = *measured(observation.value);
+  const double inflation = options_.noise_inflation * options_.noise_inflation;
+  const Eigen::Matrix2d R = inflation * *observation.covariance;
+  const double direction_rad = z.bearing_rad + to_radians(sensor_.yaw_deg);
+  SeenLandmark seen{z.kind, static_cast<float>(z.range_m), static_cast<float>(std::cos(direction_rad)),
+                    static_cast<float>(std::sin(direction_rad))};
+  const double least_rr = kSharpestSigma * kSharpestSigma * std::max(1.0, z.range_m * z.range_m);
+  if (z.kind != SightingKind::kBearing) seen.R_rr = static_cast<float>(std::max(R(0, 0), least_rr));
+  if (z.kind == SightingKind::kRangeBearing) seen.R_rb = static_cast<float>(R(0, 1));
+  if (z.kind != SightingKind::kRange)
+    seen.R_bb = static_cast<float>(
+        std::max(z.kind == SightingKind::kBearing ? R(0, 0) : R(1, 1), kSharpestSigma * kSharpestSigma));
+  return seen;
 }
 
-Eigen::Matrix2d FastSlam::noise(const Observation& observation) const {
-  return options_.noise_inflation * options_.noise_inflation * *observation.covariance;
+/// Collects the sightings of known landmarks that the set as a whole expected: a gate on each particle would
+/// let those starve that the odometry happened to lead astray. Each is judged by itself, before any of them
+/// moves or weighs a particle, so their order does not matter.
+void FastSlam::compare(std::span<const Observation> observations) {
+  accepted_.clear();
+  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
+  const kernels::Increment increment = fastslam::increment_of(pending_);
+  gate_sample_.load(particles_, origin_m);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (innovations_[i].outcome != Outcome::kMatched) continue;
+    const int landmark = matched_landmark(i);
+    store_.touch(landmark);
+    const kernels::Sighting sighting{seen(observations[i]), mount_, store_.view(landmark, origin_m)};
+    judge(gate_sample_.compare(sighting, increment), dimension(sighting.seen.kind), innovations_[i]);
+    if (innovations_[i].outcome != Outcome::kMatched) continue;
+    const bool shapes = options_.proposal == ProposalKind::kSightings && store_.modes(landmark) == 1;
+    accepted_.push_back({sighting, evidence(landmark), shapes});
+    count_sighting(landmark);
+  }
 }
 
-void FastSlam::update(std::span<const Observation> observations) {
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (innovations_[i].outcome == Outcome::kMatched) compare(observations[i], innovations_[i]);
-  if (any(Outcome::kMatched)) weigh();
-}
-
-/// Updates the sighted landmark of all particles, or of none when the whole set did not expect the
-/// observation: a gate on each particle would let those starve that the odometry happened to lead astray.
-/// Weights stay those before the scan until all its observations are judged, so their order does not matter.
-void FastSlam::compare(const Observation& observation, Innovation& innovation) {
-  const int landmark = *index_.find(innovation.landmark);
-  const auto before = store_.touch(landmark);
-  const auto after = store_.draft();
-  const fastslam::Sighting z = sighting(observation);
-  const auto moments = particle_blocks_.sum([&](std::size_t begin, std::size_t end) {
-    return fastslam::update_landmark(z, particles_, before, after, log_likelihood_.data(), begin, end);
-  });
-  judge(moments, innovation);
-  if (innovation.outcome != Outcome::kMatched) return;
-  store_.accept(landmark);
-  const double part = evidence(landmark);
-  for (std::size_t i = 0; i < log_likelihood_.size(); ++i)
-    particles_.log_weight[i] += part * log_likelihood_[i];
-  count_sighting(landmark);
-}
-
-/// FastSLAM 2.0: the sightings shape where each particle goes before it goes there; then its landmarks are
-/// updated from where it went.
-void FastSlam::propose(std::span<const Observation> observations) {
-  estimate_ = pose();
-  proposal_.start(particles_, pending_, particle_blocks_);
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (innovations_[i].outcome == Outcome::kMatched) condition(observations[i], innovations_[i]);
-  if (any(Outcome::kMatched)) weigh();
-  proposal_.sample(particles_, {seed_, StreamPurpose::kMotion, step_++}, particle_blocks_);
-  pending_ = {};
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (innovations_[i].outcome == Outcome::kMatched) update_landmark(observations[i]);
-}
-
-void FastSlam::condition(const Observation& observation, Innovation& innovation) {
-  const auto moments =
-      proposal_.condition(std::get<RangeBearing>(observation.value), noise(observation), T_robot_sensor_,
-                          particles_, store_.touch(*index_.find(innovation.landmark)), particle_blocks_);
-  judge(moments, innovation);
-  if (innovation.outcome == Outcome::kMatched)
-    proposal_.accept(particles_, evidence(*index_.find(innovation.landmark)));
-}
-
-/// At the pose that was drawn, with the landmark as it was before the scan.
-void FastSlam::update_landmark(const Observation& observation) {
-  const int landmark = *index_.find(*observation.id);
-  const auto before = store_.touch(landmark);
-  const auto after = store_.draft();
-  const fastslam::Sighting z = sighting(observation);
-  particle_blocks_.run([&](std::size_t begin, std::size_t end) {
-    fastslam::update_landmark(z, particles_, before, after, log_likelihood_.data(), begin, end);
-  });
-  store_.accept(landmark);
-  count_sighting(landmark);
-}
+int FastSlam::matched_landmark(std::size_t index) const { return *index_.find(innovations_[index].landmark); }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
 double FastSlam::evidence(int landmark) const {
@@ -248,13 +263,12 @@ void FastSlam::count_sighting(int landmark) {
 }
 
 /// NIS of the mixture: mean and covariance of the innovation over all particles.
-void FastSlam::judge(const fastslam::InnovationMoments& m, Innovation& innovation) {
-  const Eigen::Vector2d nu(m[0], m[1]);
-  const Eigen::Matrix2d S = Eigen::Matrix2d{{m[2], m[3]}, {m[3], m[4]}} - nu * nu.transpose();
-  const auto nis = std::isfinite(m[5]) ? mahalanobis_squared<2>(nu, S) : std::nullopt;
-  innovation.dof = nis ? 2 : 0;
+void FastSlam::judge(const fastslam::InnovationMoments& m, int dof, Innovation& innovation) {
+  const auto nis = dof == 2 ? mahalanobis_squared<2>(m.mean, m.covariance)
+                            : mahalanobis_squared<1>(m.mean.head<1>(), m.covariance.topLeftCorner<1, 1>());
+  innovation.dof = nis ? dof : 0;
   innovation.nis = nis.value_or(0.0);
-  innovation.gate = gate_.threshold(2);
+  innovation.gate = gate_.threshold(dof);
   if (!nis) {
     innovation.outcome = Outcome::kUnusable;
     return;
@@ -272,14 +286,27 @@ void FastSlam::weigh() {
     if (innovation.outcome == Outcome::kMatched) innovation.outcome = Outcome::kUnusable;
 }
 
+/// Landmarks that were seen may have become simpler.
+void FastSlam::refine(std::span<const Observation> observations) {
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (innovations_[i].outcome != Outcome::kMatched) continue;
+    const int landmark = matched_landmark(i);
+    if (store_.form(landmark) == LandmarkForm::kPoint) continue;
+    fastslam::tidy_modes(store_, landmark, particles_, particle_blocks_);
+    if (landmarks_[static_cast<std::size_t>(landmark)].observations % kSightingsPerRefinement == 0)
+      fastslam::become_point_if_linear(store_, landmark, particles_, mount_, particle_blocks_);
+  }
+}
+
 /// Only after a motion: clones of a robot that stands still would stay clones.
 void FastSlam::resample() {
-  if (!moved_ || fastslam::effective_particles(weights()) >= options_.resample_below * particles_.count())
+  if (!moved_ ||
+      fastslam::effective_particles(particles_.weights()) >= options_.resample_below * particles_.count())
     return;
-  const std::span<std::int32_t> ancestors(ancestors_.data(), ancestors_.size());
+  const std::span<std::int32_t> ancestors(ancestors_.data(), particles_.weights().size());
   const double u = RandomStream(seed_, StreamPurpose::kResampling, step_).uniform();
-  fastslam::choose_ancestors(weights(), u, ancestors);
-  fastslam::replace_by_ancestors(particles_, ancestors, particle_blocks_);
+  fastslam::choose_ancestors(particles_.weights(), u, ancestors);
+  particles_.replace_by_ancestors(ancestors, particle_blocks_);
   store_.resample(ancestors);
   ++resamplings_;
 }
@@ -287,15 +314,31 @@ void FastSlam::resample() {
 void FastSlam::add(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kAdded) continue;
-    const int landmark = store_.add();
-    const auto columns = store_.touch(landmark);
-    const fastslam::Sighting z = sighting(observations[i]);
-    particle_blocks_.run([&](std::size_t begin, std::size_t end) {
-      fastslam::place_landmark(z, particles_, columns, begin, end);
-    });
+    const SeenLandmark z = seen(observations[i]);
+    const bool guess = options_.init == LandmarkStart::kGuess && z.kind != SightingKind::kRangeBearing;
+    const fastslam::FirstForm first = guess ? fastslam::FirstForm{} : fastslam::first_form(z, sensor_);
+    const int landmark = store_.add(first.form, estimate_.T_world_robot.position(), first.modes);
+    if (guess)
+      fastslam::place_by_guess(
+          store_, landmark, z, sensor_, particles_,
+          {seed_, StreamPurpose::kInitialisation, static_cast<std::uint64_t>(landmark) + 1},
+          particle_blocks_);
+    else
+      place(landmark, z, first.guess);
     index_.assign(innovations_[i].landmark, landmark);
     landmarks_.push_back({innovations_[i].landmark, 1, way_m_});
   }
+}
+
+void FastSlam::place(int landmark, const SeenLandmark& seen, const kernels::FirstGuess& guess) {
+  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
+  const kernels::Sighting sighting{seen, mount_, store_.view(landmark, origin_m)};
+  particle_blocks_.run([&](std::size_t begin, std::size_t end) {
+    fastslam::BlockScratch scratch;
+    const kernels::ParticleRange range{begin, end - begin};
+    kernels::place_landmark(sighting, guess,
+                            fastslam::load_sensors(particles_, mount_, origin_m, range, scratch), range);
+  });
 }
 
 PoseEstimate FastSlam::pose() const {
@@ -305,24 +348,22 @@ PoseEstimate FastSlam::pose() const {
 /// Mean and covariance of the mixture: sum w (Sigma_i + d_i d_i^T), d_i = m_i - mean.
 LandmarkEstimate FastSlam::landmark(int index) const {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  const Eigen::Vector2d near = store_.at(index, 0).mean;
   for (int i = 0; i < particles_.count(); ++i) {
-    const auto m = store_.at(index, i);
-    mean += weights()[static_cast<std::size_t>(i)] * Eigen::Vector2d(m.x, m.y);
-  }
-  for (int i = 0; i < particles_.count(); ++i) {
-    const auto m = store_.at(index, i);
-    const Eigen::Vector2d d = Eigen::Vector2d(m.x, m.y) - mean;
-    const double w = weights()[static_cast<std::size_t>(i)];
-    within += w * Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}};
-    spread += w * d * d.transpose();
+    const fastslam::PointGaussian m = store_.at(index, i);
+    const Eigen::Vector2d d = m.mean - near;
+    const double w = particles_.weights()[static_cast<std::size_t>(i)];
+    mean += w * d;
+    within += w * m.covariance;
+    second += w * d * d.transpose();
   }
   LandmarkEstimate estimate;
   estimate.id = landmarks_[static_cast<std::size_t>(index)].id;
   estimate.observations = landmarks_[static_cast<std::size_t>(index)].observations;
-  estimate.position_m.head<2>() = mean;
-  estimate.covariance.topLeftCorner<2, 2>() = within + spread;
+  estimate.position_m.head<2>() = near + mean;
+  estimate.covariance.topLeftCorner<2, 2>() = within + second - mean * mean.transpose();
   estimate.within = Eigen::Matrix3d::Zero();
   estimate.within->topLeftCorner<2, 2>() = within;
   return estimate;
@@ -365,12 +406,12 @@ Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot,
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3 + landmarks.size(), 3 + landmarks.size());
   Eigen::VectorXd deviation(P.rows());
   for (int i = 0; i < particles_.count(); ++i) {
-    const double w = weights()[static_cast<std::size_t>(i)];
+    const double w = particles_.weights()[static_cast<std::size_t>(i)];
     deviation.head<3>() = difference(particles_.pose(i), T_world_robot);
     for (int k = 0; k < store_.size(); ++k) {
-      const auto m = store_.at(k, i);
-      deviation.segment<2>(3 + 2 * k) = Eigen::Vector2d(m.x, m.y) - landmarks.segment<2>(2 * k);
-      P.block<2, 2>(3 + 2 * k, 3 + 2 * k) += w * Eigen::Matrix2d{{m.xx, m.xy}, {m.xy, m.yy}};
+      const fastslam::PointGaussian m = store_.at(k, i);
+      deviation.segment<2>(3 + 2 * k) = m.mean - landmarks.segment<2>(2 * k);
+      P.block<2, 2>(3 + 2 * k, 3 + 2 * k) += w * m.covariance;
     }
     P += w * deviation * deviation.transpose();
   }

@@ -7,10 +7,12 @@
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/fastslam/gate_sample.hpp"
+#include "waymark/fastslam/landmark_forms.hpp"
 #include "waymark/fastslam/landmark_store.hpp"
-#include "waymark/fastslam/landmark_update.hpp"
+#include "waymark/fastslam/particle_step.hpp"
 #include "waymark/fastslam/particles.hpp"
-#include "waymark/fastslam/proposal.hpp"
+#include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
 
@@ -20,8 +22,15 @@ enum class ProposalKind {
   kSightings  ///< the odometry and what is seen now (FastSLAM 2.0, Montemerlo et al. 2003)
 };
 
+/// How a landmark begins of which one sighting does not say where it is.
+enum class LandmarkStart {
+  kAnchored,  ///< as all that the sighting allows: a ray of unknown depth, a ring of unknown direction
+  kGuess  ///< each particle guesses a point on the ray within the sensor's range, on the arc within its view
+};
+
 struct FastSlamOptions {
   ProposalKind proposal = ProposalKind::kSightings;
+  LandmarkStart init = LandmarkStart::kAnchored;
   int particles = 150;
   double resample_below = 0.5;   ///< resample when N_eff falls below this part of the particles
   double temper_below = 0.1;     ///< flatten weights when N_eff would fall below this part of the particles
@@ -32,26 +41,30 @@ struct FastSlamOptions {
 
 void describe(Schema& schema, FastSlamOptions& options);
 
-/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over range-bearing sightings of 2-D landmarks with
-/// known identities. Motion is collected until something is seen, then every particle draws from it.
+/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over sightings of 2-D landmarks with known identities,
+/// by range and bearing, range alone or bearing alone. Motion is collected until something is seen, then
+/// every particle draws from it. docs/fastslam.md has the equations.
+///
+/// Given a particle's path the pose of a first sighting is exactly known. So a landmark of which only the
+/// bearing is known is kept as direction and inverse distance from there, one of which only the range is
+/// known as hypotheses on a ring about there: each nearly linear, and of use from the first sighting on. They
+/// turn into points when that is nearly linear too.
 ///
 /// Robust where the plain filter starves:
 /// * A sighting weighs particles by how much news it brings: with the power 1 - exp(-w / evidence_way_m) of
-/// its
-///   likelihood, w the way since that landmark was last seen. A landmark under watch says little about where
-///   the path as a whole went, and its errors are alike from frame to frame; weights that count every frame
-///   in full make the set forget its own past by resampling (Bailey, Nieto, Nebot 2006) long before a loop
-///   closes.
+///   its likelihood, w the way since that landmark was last seen. A landmark under watch says little about
+///   where the path as a whole went, and its errors are alike from frame to frame; weights that count every
+///   frame in full make the set forget its own past by resampling (Bailey, Nieto, Nebot 2006) long before a
+///   loop closes.
 /// * An observation is gated by the whole set, not particle by particle. A set that refuses several in a row
-/// is
-///   itself what is wrong, and has to accept again.
+///   is itself what is wrong, and has to accept again.
 /// * Weights never collapse onto a few particles: they are flattened to keep `temper_below` effective.
 /// * The pose and its covariance are taken after weighting and before resampling.
 /// * A robot that stands still is neither predicted nor resampled.
 class FastSlam final : public Filter {
  public:
   /// `initial` is where the robot is believed to start. Same seed, same bits, whatever the number of threads.
-  FastSlam(const FastSlamOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor,
+  FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
            std::uint64_t seed, int threads = 1, const PoseEstimate& initial = {});
 
   /// O(1); a motion that is not finite is ignored.
@@ -75,37 +88,35 @@ class FastSlam final : public Filter {
 
   void associate(std::span<const Observation> observations);
   [[nodiscard]] Outcome screen(std::size_t index, const Observation& observation) const;
+  void compare(std::span<const Observation> observations);
+  void judge(const fastslam::InnovationMoments& moments, int dof, Innovation& innovation);
   void move_particles();
-  void update(std::span<const Observation> observations);
-  void compare(const Observation& observation, Innovation& innovation);
-  void condition(const Observation& observation, Innovation& innovation);
-  void propose(std::span<const Observation> observations);
-  void update_landmark(const Observation& observation);
-  [[nodiscard]] double evidence(int landmark) const;
   void count_sighting(int landmark);
-  [[nodiscard]] Eigen::Matrix2d noise(const Observation& observation) const;
-  void judge(const fastslam::InnovationMoments& moments, Innovation& innovation);
   void weigh();
+  void refine(std::span<const Observation> observations);
   void resample();
   void add(std::span<const Observation> observations);
+  void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess);
 
-  [[nodiscard]] fastslam::Sighting sighting(const Observation& observation) const;
+  [[nodiscard]] kernels::SeenLandmark seen(const Observation& observation) const;
+  [[nodiscard]] double evidence(int landmark) const;
   [[nodiscard]] bool any(Outcome outcome) const;
-  [[nodiscard]] std::span<const double> weights() const;
+  [[nodiscard]] int matched_landmark(std::size_t index) const;
   [[nodiscard]] LandmarkEstimate landmark(int index) const;
   [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot,
                                                  const Eigen::VectorXd& landmarks) const;
 
   FastSlamOptions options_;
   Gate gate_;
-  Pose2 T_robot_sensor_;
+  LandmarkSensor sensor_;
+  kernels::SensorMount mount_;
   std::uint64_t seed_;
 
   fastslam::ParticleBlocks particle_blocks_;
   fastslam::Particles particles_;
   fastslam::LandmarkStore store_;
-  fastslam::Proposal proposal_;
-  AlignedArray<double> log_likelihood_;
+  fastslam::GateSample gate_sample_;
+  std::vector<fastslam::AcceptedSighting> accepted_;
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;
   std::vector<Landmark> landmarks_;  // by index in the store
@@ -120,7 +131,7 @@ class FastSlam final : public Filter {
 
   std::vector<Innovation> innovations_;
   Correction correction_;
-  FunctionBlocks table_{"associate", "predict", "update", "estimate", "resample", "add"};
+  FunctionBlocks table_{"associate", "compare", "update", "estimate", "resample", "add"};
 };
 
 }  // namespace waymark

@@ -1,87 +1,119 @@
 #include "waymark/fastslam/landmark_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "waymark/kernels/gather.hpp"
+
 namespace waymark::fastslam {
-namespace {
 
-constexpr std::size_t kDoublesPerCacheLine = 8;
-
-// Whole cache lines per column, an odd number of them: the same particle's entries in the five columns of a
-// large set must not all fall into one cache set.
-std::size_t column_stride(std::size_t particles) {
-  const std::size_t lines = (particles + kDoublesPerCacheLine - 1) / kDoublesPerCacheLine;
-  return (lines | 1) * kDoublesPerCacheLine;
-}
-
-}  // namespace
+using kernels::LandmarkForm;
+using kernels::LandmarkMode;
 
 LandmarkStore::LandmarkStore(ParticleBlocks& blocks)
-    : blocks_(blocks),
-      stride_(column_stride(blocks.particles())),
-      composed_(blocks.particles()),
-      draft_(make_buffer()) {
+    : blocks_(blocks), pool_(blocks.capacity()), ancestors_(blocks.capacity()), composed_(blocks.capacity()) {
   for (std::size_t g = 0; g < kGenerations; ++g)
-    generations_.push_back({AlignedArray<std::int32_t>(blocks.particles())});
+    generations_.push_back({AlignedArray<std::int32_t>(blocks.capacity())});
+  pool_.reserve(kColumnsAtOnce);
 }
 
-LandmarkColumns LandmarkStore::columns_of(Buffer& buffer) const {
-  double* const first = buffer.data();
-  return {first, first + stride_, first + 2 * stride_, first + 3 * stride_, first + 4 * stride_};
-}
-
-int LandmarkStore::add() {
-  landmarks_.push_back({make_buffer(), present_});
+int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes) {
+  Landmark landmark{form, origin_m, {}, nullptr, nullptr, present_};
+  for (std::size_t k = 0; k < modes; ++k) {
+    LandmarkMode& mode = landmark.modes.emplace_back();
+    mode.gaussian = {pool_.take(), pool_.take(), pool_.take(), pool_.take(), pool_.take()};
+    if (modes > 1) mode.log_weight = pool_.take();
+  }
+  if (form != LandmarkForm::kPoint) {
+    landmark.anchor_x = pool_.take();
+    landmark.anchor_y = pool_.take();
+  }
+  landmarks_.push_back(std::move(landmark));
   ++generations_[present_].landmarks;
+  list_columns(landmarks_.back());  // room for the list is taken here, not when the landmark is touched
+  pool_.reserve(kColumnsAtOnce);
   return size() - 1;
 }
 
-LandmarkColumns LandmarkStore::touch(int landmark) {
-  Landmark& touched = landmarks_[static_cast<std::size_t>(landmark)];
-  if (touched.generation != present_) move_to_present(touched);
-  return columns_of(touched.buffer);
+void LandmarkStore::list_columns(Landmark& landmark) {
+  columns_.clear();
+  for (LandmarkMode& mode : landmark.modes) {
+    auto& [a, b, aa, ab, bb] = mode.gaussian;
+    columns_.insert(columns_.end(), {&a, &b, &aa, &ab, &bb});
+    if (mode.log_weight != nullptr) columns_.push_back(&mode.log_weight);
+  }
+  if (landmark.anchor_x != nullptr) columns_.insert(columns_.end(), {&landmark.anchor_x, &landmark.anchor_y});
+}
+
+/// The listed columns, through `places`: a few at a time, so that few columns have to be spare.
+void LandmarkStore::gather_columns(const std::int32_t* places) {
+  std::array<float*, kColumnsAtOnce> gathered{};
+  for (std::size_t first = 0; first < columns_.size(); first += kColumnsAtOnce) {
+    const std::size_t count = std::min(kColumnsAtOnce, columns_.size() - first);
+    for (std::size_t c = 0; c < count; ++c) gathered[c] = pool_.take();
+    blocks_.run([&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = 0; c < count; ++c)
+        kernels::gather(*columns_[first + c], places + begin, gathered[c] + begin, end - begin);
+    });
+    for (std::size_t c = 0; c < count; ++c) pool_.give_back(std::exchange(*columns_[first + c], gathered[c]));
+  }
+}
+
+void LandmarkStore::touch(int landmark) {
+  if (of(landmark).generation != present_) move_to_present(of(landmark));
 }
 
 void LandmarkStore::move_to_present(Landmark& landmark) {
   Generation& past = generations_[landmark.generation];
-  blocks_.run([&](std::size_t begin, std::size_t end) {
-    for (std::size_t column = 0; column < kColumns; ++column) {
-      const double* from = landmark.buffer.data() + column * stride_;
-      double* to = draft_.data() + column * stride_;
-      for (std::size_t i = begin; i < end; ++i) to[i] = from[past.places[i]];
-    }
-  });
-  std::swap(landmark.buffer, draft_);
+  list_columns(landmark);
+  gather_columns(past.places.data());
   landmark.generation = present_;
   --past.landmarks;
   ++generations_[present_].landmarks;
 }
 
-void LandmarkStore::accept(int landmark) {
-  Landmark& accepted = landmarks_[static_cast<std::size_t>(landmark)];
-  std::swap(accepted.buffer, draft_);
-  --generations_[accepted.generation].landmarks;
-  ++generations_[present_].landmarks;
-  accepted.generation = present_;
+kernels::LandmarkView LandmarkStore::view(int landmark, const Eigen::Vector2d& origin_m) const {
+  const Landmark& seen = of(landmark);
+  const Eigen::Vector2f offset = (seen.origin_m - origin_m).cast<float>();
+  return {seen.form,     offset.x(),        offset.y(),       seen.anchor_x,
+          seen.anchor_y, seen.modes.data(), seen.modes.size()};
+}
+
+void LandmarkStore::drop_mode(int landmark, std::size_t mode) {
+  auto& modes = of(landmark).modes;
+  auto& [a, b, aa, ab, bb] = modes[mode].gaussian;
+  for (float* column : {a, b, aa, ab, bb, modes[mode].log_weight}) pool_.give_back(column);
+  modes.erase(modes.begin() + static_cast<std::ptrdiff_t>(mode));
+  if (modes.size() == 1) pool_.give_back(std::exchange(modes.front().log_weight, nullptr));
+}
+
+void LandmarkStore::become_point(int landmark) {
+  Landmark& changed = of(landmark);
+  changed.form = LandmarkForm::kPoint;
+  pool_.give_back(std::exchange(changed.anchor_x, nullptr));
+  pool_.give_back(std::exchange(changed.anchor_y, nullptr));
 }
 
 void LandmarkStore::resample(std::span<const std::int32_t> ancestors) {
-  if (free_generation() == kGenerations) empty_oldest_generation();
+  if (free_generation() == kGenerations) fold_young_generations();
+  blocks_.resize(ancestors.size());
+  std::ranges::copy(ancestors, ancestors_.data());
   for (std::size_t g = 0; g < kGenerations; ++g) {
     Generation& past = generations_[g];
     if (g == present_ || past.landmarks == 0) continue;
-    for (std::size_t i = 0; i < ancestors.size(); ++i)
-      composed_[i] = past.places[static_cast<std::size_t>(ancestors[i])];
+    blocks_.run([&](std::size_t begin, std::size_t end) {
+      kernels::gather(past.places.data(), ancestors_.data() + begin, composed_.data() + begin, end - begin);
+    });
     std::swap(past.places, composed_);
   }
   ++resamplings_;
-  if (generations_[present_].landmarks > 0) end_present_generation(ancestors);
+  if (generations_[present_].landmarks > 0) end_present_generation();
 }
 
-void LandmarkStore::end_present_generation(std::span<const std::int32_t> ancestors) {
+void LandmarkStore::end_present_generation() {
   Generation& ending = generations_[present_];
-  std::ranges::copy(ancestors, ending.places.data());
+  std::swap(ending.places, ancestors_);
   ending.ended = resamplings_;
   present_ = free_generation();
 }
@@ -92,21 +124,35 @@ std::size_t LandmarkStore::free_generation() const {
   return kGenerations;
 }
 
-void LandmarkStore::empty_oldest_generation() {
-  std::size_t oldest = present_ == 0 ? 1 : 0;
+/// Generations that ended then or later hold, each, at most as many landmarks as all younger ones together.
+std::int64_t LandmarkStore::first_to_fold() const {
+  std::array<const Generation*, kGenerations> young{};
+  std::size_t count = 0;
   for (std::size_t g = 0; g < kGenerations; ++g)
-    if (g != present_ && generations_[g].ended < generations_[oldest].ended) oldest = g;
-  for (Landmark& landmark : landmarks_)
-    if (landmark.generation == oldest) move_to_present(landmark);
+    if (g != present_) young[count++] = &generations_[g];
+  std::sort(young.begin(), young.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Generation* a, const Generation* b) { return a->ended > b->ended; });
+  int folded = young[0]->landmarks;
+  std::size_t last = 0;
+  while (last + 1 < count && young[last + 1]->landmarks <= folded) folded += young[++last]->landmarks;
+  return young[last]->ended;
 }
 
-LandmarkGaussian LandmarkStore::at(int landmark, int particle) const {
-  const Landmark& seen = landmarks_[static_cast<std::size_t>(landmark)];
+void LandmarkStore::fold_young_generations() {
+  const std::int64_t since = first_to_fold();
+  for (Landmark& landmark : landmarks_)
+    if (landmark.generation != present_ && generations_[landmark.generation].ended >= since)
+      move_to_present(landmark);
+}
+
+PointGaussian LandmarkStore::at(int landmark, int particle) const {
+  const Landmark& seen = of(landmark);
   const auto own = static_cast<std::size_t>(particle);
   const auto place =
       seen.generation == present_ ? own : static_cast<std::size_t>(generations_[seen.generation].places[own]);
-  const double* entry = seen.buffer.data() + place;
-  return {entry[0], entry[stride_], entry[2 * stride_], entry[3 * stride_], entry[4 * stride_]};
+  PointGaussian point = point_of(view(landmark, seen.origin_m), place);
+  point.mean += seen.origin_m;
+  return point;
 }
 
 }  // namespace waymark::fastslam

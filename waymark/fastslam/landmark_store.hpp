@@ -1,45 +1,28 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "waymark/core/aligned_array.hpp"
+#include "waymark/fastslam/column_pool.hpp"
+#include "waymark/fastslam/landmark_point.hpp"
 #include "waymark/fastslam/particle_blocks.hpp"
+#include "waymark/kernels/particle_columns.hpp"
 
 namespace waymark::fastslam {
-
-/// One landmark as one particle sees it: mean and covariance given that particle's path, world frame, m and
-/// m^2.
-struct LandmarkGaussian {
-  double x = 0.0;
-  double y = 0.0;
-  double xx = 0.0;
-  double xy = 0.0;
-  double yy = 0.0;
-};
-
-/// One landmark as all particles see it: entry i of each column belongs to particle i. Columns are 64-byte
-/// aligned.
-struct LandmarkColumns {
-  double* x = nullptr;
-  double* y = nullptr;
-  double* xx = nullptr;
-  double* xy = nullptr;
-  double* yy = nullptr;
-
-  [[nodiscard]] LandmarkGaussian at(std::size_t particle) const {
-    return {x[particle], y[particle], xx[particle], xy[particle], yy[particle]};
-  }
-};
 
 /// The maps of all particles, landmark by landmark. Resampling copies no landmark: it only notes which place
 /// of the old generation each particle's map now stands in, and a landmark is brought into the present order
 /// when it is next touched. The result equals deep copies of the maps bit for bit.
 ///
-/// add() takes memory; nothing else does. Costs for N particles: touch() 5 N copies if the set was resampled
-/// since the last touch, else nothing; resample() at most kGenerations N, whatever the size of the map.
+/// Costs for N particles: touch() copies a landmark's columns if the set was resampled since the last touch,
+/// else nothing. resample() at most kGenerations N, whatever the size of the map; when the generations run
+/// out, young ones are folded into the present one before old ones, after Bentley and Saxe (1980): a landmark
+/// that nobody looks at is moved O(log landmarks) times, not once per so many resamplings. add() may take
+/// memory.
 class LandmarkStore {
  public:
   /// `blocks` must outlive the store.
@@ -47,34 +30,43 @@ class LandmarkStore {
 
   [[nodiscard]] int size() const { return static_cast<int>(landmarks_.size()); }
 
-  /// Appends a landmark of zeros and returns its index.
-  int add();
+  /// Appends a landmark of such a form and so many hypotheses, positions counted from `origin_m`, and returns
+  /// its index. Its columns hold anything.
+  int add(kernels::LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes = 1);
 
-  /// The landmark in the present order of particles. Valid until the next call of touch(), accept() or add().
-  LandmarkColumns touch(int landmark);
+  /// Brings a landmark into the present order of particles.
+  void touch(int landmark);
 
-  /// Room beside the landmarks, in which a new version of one can be prepared. Valid as long as touch()'s
-  /// columns.
-  [[nodiscard]] LandmarkColumns draft() { return columns_of(draft_); }
+  /// A touched landmark, for kernels that count positions from `origin_m`. Valid until it is touched after a
+  /// resampling, or changed.
+  [[nodiscard]] kernels::LandmarkView view(int landmark, const Eigen::Vector2d& origin_m) const;
 
-  /// The draft becomes the landmark.
-  void accept(int landmark);
+  [[nodiscard]] kernels::LandmarkForm form(int landmark) const { return of(landmark).form; }
+  [[nodiscard]] std::size_t modes(int landmark) const { return of(landmark).modes.size(); }
 
-  /// Particle i takes over the map of ancestors[i].
+  /// Forgets one of several hypotheses of all particles; of the last one the log weights.
+  void drop_mode(int landmark, std::size_t mode);
+
+  /// The landmark's two numbers now are (x, y): its anchors are forgotten.
+  void become_point(int landmark);
+
+  /// Particle i takes over the map of ancestors[i]; there are as many particles as ancestors from now on.
   void resample(std::span<const std::int32_t> ancestors);
 
-  /// What touch() would show for one particle, without touching.
-  [[nodiscard]] LandmarkGaussian at(int landmark, int particle) const;
+  /// What one particle knows of a landmark, without touching: hypotheses as one Gaussian of the same moments.
+  [[nodiscard]] PointGaussian at(int landmark, int particle) const;
 
  private:
-  static constexpr std::size_t kColumns = 5;
   static constexpr std::size_t kGenerations = 16;
-
-  using Buffer = AlignedArray<double>;
+  static constexpr std::size_t kColumnsAtOnce = 8;
 
   struct Landmark {
-    Buffer buffer;
-    std::size_t generation;
+    kernels::LandmarkForm form;
+    Eigen::Vector2d origin_m;
+    std::vector<kernels::LandmarkMode> modes;
+    float* anchor_x = nullptr;
+    float* anchor_y = nullptr;
+    std::size_t generation = 0;
   };
 
   /// Landmarks whose columns are in the order that the particles had at one time.
@@ -85,19 +77,25 @@ class LandmarkStore {
     std::int64_t ended = 0;  ///< number of the resampling that ended it
   };
 
-  [[nodiscard]] Buffer make_buffer() const { return Buffer(kColumns * stride_); }
-  [[nodiscard]] LandmarkColumns columns_of(Buffer& buffer) const;
+  [[nodiscard]] const Landmark& of(int landmark) const {
+    return landmarks_[static_cast<std::size_t>(landmark)];
+  }
+  [[nodiscard]] Landmark& of(int landmark) { return landmarks_[static_cast<std::size_t>(landmark)]; }
+  void list_columns(Landmark& landmark);
+  void gather_columns(const std::int32_t* places);
   void move_to_present(Landmark& landmark);
-  void end_present_generation(std::span<const std::int32_t> ancestors);
+  void end_present_generation();
   [[nodiscard]] std::size_t free_generation() const;
-  void empty_oldest_generation();
+  [[nodiscard]] std::int64_t first_to_fold() const;
+  void fold_young_generations();
 
   ParticleBlocks& blocks_;
-  std::size_t stride_;
+  ColumnPool pool_;
   std::vector<Landmark> landmarks_;
   std::vector<Generation> generations_;
+  AlignedArray<std::int32_t> ancestors_;
   AlignedArray<std::int32_t> composed_;
-  Buffer draft_;
+  std::vector<float**> columns_;  // of the landmark that is being moved
   std::size_t present_ = 0;
   std::int64_t resamplings_ = 0;
 };

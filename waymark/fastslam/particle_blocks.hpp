@@ -16,20 +16,25 @@ namespace waymark::fastslam {
 class ParticleBlocks {
  public:
   static constexpr std::size_t kBlockSize = 256;
-  static constexpr std::size_t kMaxTerms = 8;
+  static constexpr std::size_t kMaxTerms = 10;
 
-  /// `particles` >= 1, `threads` >= 1 with the caller's included.
-  explicit ParticleBlocks(int particles, int threads = 1)
-      : particles_(static_cast<std::size_t>(particles)),
+  /// `capacity` >= 1 particles at most, all of them at first; `threads` >= 1 with the caller's included.
+  explicit ParticleBlocks(int capacity, int threads = 1)
+      : particles_(static_cast<std::size_t>(capacity)),
         partial_sums_((particles_ + kBlockSize - 1) / kBlockSize),
         team_(threads) {}
 
   [[nodiscard]] std::size_t particles() const { return particles_; }
+  [[nodiscard]] std::size_t capacity() const { return partial_sums_.size() * kBlockSize; }
+  /// Later loops run over so many particles, at most the capacity.
+  void resize(std::size_t particles) { particles_ = particles; }
 
   /// Calls job(begin, end) for every block of particles [begin, end).
   template <class Job>
   void run(Job&& job) {
-    team_.run(blocks(), [&](int block) { job(begin(block), end(block)); });
+    const auto run_block = [&](int block) { job(begin(block), end(block)); };
+    if (blocks() >= kBlocksWorthThreads) return team_.run(blocks(), run_block);
+    for (int block = 0; block < blocks(); ++block) run_block(block);
   }
 
   /// The sum over all blocks of job(begin, end) -> std::array<double, Terms>.
@@ -38,23 +43,39 @@ class ParticleBlocks {
     using Terms = decltype(job(std::size_t{}, std::size_t{}));
     constexpr std::size_t kTerms = std::tuple_size_v<Terms>;
     static_assert(kTerms <= kMaxTerms);
-    team_.run(blocks(), [&](int block) {
-      const Terms terms = job(begin(block), end(block));
-      std::copy(terms.begin(), terms.end(), partial_sums_[static_cast<std::size_t>(block)].terms.begin());
+    run([&](std::size_t begin, std::size_t end) {
+      const Terms terms = job(begin, end);
+      std::copy(terms.begin(), terms.end(), partial_sums_[begin / kBlockSize].terms.begin());
     });
     Terms total{};
-    for (const PartialSum& partial : partial_sums_)
-      for (std::size_t k = 0; k < kTerms; ++k) total[k] += partial.terms[k];
+    for (int block = 0; block < blocks(); ++block)
+      for (std::size_t k = 0; k < kTerms; ++k)
+        total[k] += partial_sums_[static_cast<std::size_t>(block)].terms[k];
     return total;
   }
 
+  /// The largest of job(begin, end) over all blocks.
+  template <class Job>
+  double largest(Job&& job) {
+    run([&](std::size_t begin, std::size_t end) {
+      partial_sums_[begin / kBlockSize].terms[0] = job(begin, end);
+    });
+    double best = partial_sums_[0].terms[0];
+    for (int block = 1; block < blocks(); ++block)
+      best = std::max(best, partial_sums_[static_cast<std::size_t>(block)].terms[0]);
+    return best;
+  }
+
  private:
-  // One cache line each, so that threads do not write to the same one.
+  // Waking a thread takes as long as some thousand landmark updates.
+  static constexpr int kBlocksWorthThreads = 8;
+
+  // Whole cache lines, so that threads do not write to the same one.
   struct alignas(64) PartialSum {
     std::array<double, kMaxTerms> terms{};
   };
 
-  [[nodiscard]] int blocks() const { return static_cast<int>(partial_sums_.size()); }
+  [[nodiscard]] int blocks() const { return static_cast<int>((particles_ + kBlockSize - 1) / kBlockSize); }
   [[nodiscard]] static std::size_t begin(int block) { return static_cast<std::size_t>(block) * kBlockSize; }
   [[nodiscard]] std::size_t end(int block) const { return std::min(particles_, begin(block) + kBlockSize); }
 

@@ -5,126 +5,97 @@
 #include <cmath>
 #include <limits>
 
+#include "waymark/kernels/particle_weights.hpp"
+
 namespace waymark::fastslam {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-// As a proportion of the variance that a pivot began with, what rounding can leave of a pivot that should be
-// 0.
-constexpr double kRelativePivot = 1e-12;
-
-double largest_log_weight(const Particles& p) {
-  double largest = kNever;
-  for (std::size_t i = 0; i < p.log_weight.size(); ++i)
-    if (std::isfinite(p.log_weight[i])) largest = std::max(largest, p.log_weight[i]);
-  return largest;
-}
-
 // Beta is halved until N_eff is large enough, then bisected between the last two values.
 constexpr int kMostHalvings = 100;
 constexpr int kBisections = 8;
 
+// A mean heading so far from the one that differences were taken to is taken again, from itself.
+constexpr double kLargestShift_rad = 0.1;
+constexpr int kMostShifts = 8;
+
+std::size_t padded(int count) { return kernels::round_up_particles(static_cast<std::size_t>(count)); }
+
 // N_eff = (sum w)^2 / sum w^2 with w = exp(beta log_weight).
 double effective_particles_at(double beta, const Particles& p, ParticleBlocks& blocks) {
   const auto sums = blocks.sum([&](std::size_t begin, std::size_t end) {
-    std::array<double, 2> sum{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const double w = std::exp(beta * p.log_weight[i]);
-      sum[0] += w;
-      sum[1] += w * w;
-    }
-    return sum;
+    return kernels::sum_powers(p.log_weights().data() + begin, beta, end - begin);
   });
   return sums[0] * sums[0] / sums[1];
 }
 
-Pose2 mean_pose(const Particles& p, ParticleBlocks& blocks) {
-  const auto sums = blocks.sum([&](std::size_t begin, std::size_t end) {
-    std::array<double, 4> sum{};
-    for (std::size_t i = begin; i < end; ++i) {
-      sum[0] += p.weight[i] * p.x_m[i];
-      sum[1] += p.weight[i] * p.y_m[i];
-      sum[2] += p.weight[i] * p.cos_theta[i];
-      sum[3] += p.weight[i] * p.sin_theta[i];
-    }
-    return sum;
+kernels::PoseSums sum_about(const Pose2& reference, const Particles& p, ParticleBlocks& blocks) {
+  const std::array<double, 3> about{reference.x_m, reference.y_m, reference.theta_rad};
+  return blocks.sum([&](std::size_t begin, std::size_t end) {
+    return kernels::sum_poses(p.world(begin), p.weights().data() + begin, about, end - begin);
   });
-  return {sums[0], sums[1], std::atan2(sums[3], sums[2])};
 }
 
 }  // namespace
 
-Particles::Particles(int count, const Pose2& T_world_robot)
-    : x_m(static_cast<std::size_t>(count)),
-      y_m(static_cast<std::size_t>(count)),
-      theta_rad(static_cast<std::size_t>(count)),
-      cos_theta(static_cast<std::size_t>(count)),
-      sin_theta(static_cast<std::size_t>(count)),
-      log_weight(static_cast<std::size_t>(count)),
-      weight(static_cast<std::size_t>(count)) {
-  for (std::size_t i = 0; i < weight.size(); ++i) set_pose(i, T_world_robot);
-  make_weights_equal(*this);
+Particles::Particles(int capacity, const Pose2& T_world_robot)
+    : count_(capacity),
+      x_m_(padded(capacity)),
+      y_m_(padded(capacity)),
+      theta_rad_(padded(capacity)),
+      log_weight_(padded(capacity)),
+      weight_(padded(capacity)) {
+  for (int i = 0; i < capacity; ++i) set_pose(i, T_world_robot);
+  make_weights_equal();
 }
 
 Pose2 Particles::pose(int i) const {
   const auto k = static_cast<std::size_t>(i);
-  return {x_m[k], y_m[k], theta_rad[k]};
+  return {x_m_[k], y_m_[k], wrap_angle(theta_rad_[k])};
 }
 
-void Particles::set_pose(std::size_t i, const Pose2& T_world_robot) {
-  x_m[i] = T_world_robot.x_m;
-  y_m[i] = T_world_robot.y_m;
-  theta_rad[i] = wrap_angle(T_world_robot.theta_rad);
-  cos_theta[i] = std::cos(theta_rad[i]);
-  sin_theta[i] = std::sin(theta_rad[i]);
+void Particles::set_pose(int i, const Pose2& T_world_robot) {
+  const auto k = static_cast<std::size_t>(i);
+  x_m_[k] = T_world_robot.x_m;
+  y_m_[k] = T_world_robot.y_m;
+  theta_rad_[k] = wrap_angle(T_world_robot.theta_rad);
 }
 
-Eigen::Matrix3d semidefinite_root(const Eigen::Matrix3d& Q) {
-  Eigen::Matrix3d L = Eigen::Matrix3d::Zero();
-  for (int j = 0; j < 3; ++j) {
-    const double pivot = Q(j, j) - L.row(j).squaredNorm();
-    if (!(pivot > kRelativePivot * Q(j, j))) continue;
-    L(j, j) = std::sqrt(pivot);
-    for (int i = j + 1; i < 3; ++i) L(i, j) = (Q(i, j) - L.row(i).head(j).dot(L.row(j).head(j))) / L(j, j);
-  }
-  return L;
+void Particles::make_weights_equal() {
+  std::ranges::fill(log_weights(), 0.0);
+  std::ranges::fill(weights(), 1.0 / count_);
+  std::fill(weight_.data() + size(), weight_.data() + padded(count_), 0.0);
 }
 
-void move(Particles& p, const Motion& motion, const StreamKey& key, ParticleBlocks& blocks) {
-  const Eigen::Matrix3d L = semidefinite_root(motion.covariance);
-  const Eigen::Vector3d mean(motion.increment.x_m, motion.increment.y_m, motion.increment.theta_rad);
+void Particles::replace_by_ancestors(std::span<const std::int32_t> ancestors, ParticleBlocks& blocks) {
+  count_ = static_cast<int>(ancestors.size());
+  blocks.resize(ancestors.size());
   blocks.run([&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      RandomStream random(key.seed, key.purpose, key.step, static_cast<std::uint32_t>(i));
-      const double n0 = random.normal();
-      const double n1 = random.normal();
-      const double n2 = random.normal();
-      const Eigen::Vector3d d = mean + L * Eigen::Vector3d(n0, n1, n2);
-      const double c = p.cos_theta[i];
-      const double s = p.sin_theta[i];
-      p.set_pose(
-          i, {p.x_m[i] + c * d.x() - s * d.y(), p.y_m[i] + s * d.x() + c * d.y(), p.theta_rad[i] + d.z()});
+      const auto from = static_cast<std::size_t>(ancestors[i]);
+      if (from == i) continue;
+      for (auto* column : {&x_m_, &y_m_, &theta_rad_}) (*column)[i] = (*column)[from];
     }
   });
+  make_weights_equal();
 }
 
 bool normalise_weights(Particles& p, ParticleBlocks& blocks) {
-  const double largest = largest_log_weight(p);
+  double* const log_weight = p.log_weights().data();
+  double* const weight = p.weights().data();
+  const double largest = blocks.largest([&](std::size_t begin, std::size_t end) {
+    return kernels::largest_finite(log_weight + begin, end - begin);
+  });
   if (largest == kNever) {
-    make_weights_equal(p);
+    p.make_weights_equal();
     return false;
   }
   const double total = blocks.sum([&](std::size_t begin, std::size_t end) {
-    std::array<double, 1> sum{};
-    for (std::size_t i = begin; i < end; ++i) {
-      p.log_weight[i] = std::isfinite(p.log_weight[i]) ? p.log_weight[i] - largest : kNever;
-      p.weight[i] = std::exp(p.log_weight[i]);
-      sum[0] += p.weight[i];
-    }
-    return sum;
+    return std::array{kernels::exponentiate(largest, log_weight + begin, weight + begin, end - begin)};
   })[0];
-  for (std::size_t i = 0; i < p.weight.size(); ++i) p.weight[i] /= total;
+  blocks.run(
+      [&](std::size_t begin, std::size_t end) { kernels::scale(1.0 / total, weight + begin, end - begin); });
   return true;
 }
 
@@ -140,47 +111,21 @@ void temper_weights(Particles& p, double least_effective, ParticleBlocks& blocks
     const double middle = 0.5 * (low + high);
     (is_flat(middle) ? low : high) = middle;
   }
-  for (std::size_t i = 0; i < p.log_weight.size(); ++i) p.log_weight[i] *= low;
+  for (double& log_weight : p.log_weights()) log_weight *= low;
   (void)normalise_weights(p, blocks);
 }
 
-void make_weights_equal(Particles& p) {
-  const double equal = 1.0 / static_cast<double>(p.weight.size());
-  std::fill_n(p.log_weight.data(), p.log_weight.size(), 0.0);
-  std::fill_n(p.weight.data(), p.weight.size(), equal);
-}
-
 PoseEstimate estimate(const Particles& p, ParticleBlocks& blocks) {
-  const Pose2 mean = mean_pose(p, blocks);
-  const auto m = blocks.sum([&](std::size_t begin, std::size_t end) {
-    std::array<double, 6> sum{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const double w = p.weight[i];
-      const double x = p.x_m[i] - mean.x_m;
-      const double y = p.y_m[i] - mean.y_m;
-      const double t = wrap_angle(p.theta_rad[i] - mean.theta_rad);
-      sum[0] += w * x * x;
-      sum[1] += w * x * y;
-      sum[2] += w * x * t;
-      sum[3] += w * y * y;
-      sum[4] += w * y * t;
-      sum[5] += w * t * t;
-    }
-    return sum;
-  });
-  return {mean, Eigen::Matrix3d{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}};
-}
-
-void replace_by_ancestors(Particles& p, std::span<const std::int32_t> ancestors, ParticleBlocks& blocks) {
-  blocks.run([&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto from = static_cast<std::size_t>(ancestors[i]);
-      if (from == i) continue;
-      for (auto* column : {&p.x_m, &p.y_m, &p.theta_rad, &p.cos_theta, &p.sin_theta})
-        (*column)[i] = (*column)[from];
-    }
-  });
-  make_weights_equal(p);
+  Pose2 reference = p.pose(0);
+  kernels::PoseSums m = sum_about(reference, p, blocks);
+  for (int i = 0; i < kMostShifts && std::abs(m[3]) > kLargestShift_rad; ++i) {
+    reference.theta_rad += m[3];
+    m = sum_about(reference, p, blocks);
+  }
+  const Eigen::Vector3d mean(m[1], m[2], m[3]);
+  const Eigen::Matrix3d second{{m[4], m[5], m[6]}, {m[5], m[7], m[8]}, {m[6], m[8], m[9]}};
+  return {{reference.x_m + mean[0], reference.y_m + mean[1], wrap_angle(reference.theta_rad + mean[2])},
+          second - mean * mean.transpose()};
 }
 
 }  // namespace waymark::fastslam

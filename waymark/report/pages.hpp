@@ -8,6 +8,7 @@ namespace waymark {
 /// The pages that web/NAME/ is bundled into at build time, with kPageDataMark where their data belong.
 [[nodiscard]] std::string_view report_page();
 [[nodiscard]] std::string_view sweep_page();
+[[nodiscard]] std::string_view consistency_page();
 
 inline constexpr std::string_view kPageDataMark = "<!-- data -->";
 

@@ -7,6 +7,7 @@
 #include "waymark/report/decimate.hpp"
 #include "waymark/report/nis_histogram.hpp"
 #include "waymark/report/pages.hpp"
+#include "waymark/report/rounded.hpp"
 
 namespace waymark {
 namespace {
@@ -14,12 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;  // metrics stay in the order of metrics.json
 using Values = std::vector<double>;
 using Rows = std::vector<std::size_t>;
-
-double rounded(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return value;
-  const double scale = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
-  return std::isfinite(scale) ? std::round(value * scale) / scale : 0.0;
-}
 
 double rounded_stamp(double t_s) { return std::round(t_s * 1e4) / 1e4; }
 

@@ -7,6 +7,7 @@
 
 #include "waymark/io/files.hpp"
 #include "waymark/report/pages.hpp"
+#include "waymark/report/rounded.hpp"
 
 namespace waymark {
 namespace {
@@ -30,13 +31,6 @@ constexpr std::array<Published, 6> kPublished{{{"range-bearing", 150, 0.38, 0.56
                                                {"range", 1000, 0.64, 0.40, 68.0, {0.68, 0.79}},
                                                {"bearing", 150, 0.64, 2.32, 12.0, {0.83, 0.94}},
                                                {"bearing", 1000, 0.89, 2.47, 68.0, {0.83, 0.94}}}};
-
-/// Six significant digits; null for what is not known.
-Json rounded(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return std::isfinite(value) ? Json(0.0) : Json(nullptr);
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 5.0);
-  return std::round(value / unit) * unit;
-}
 
 Json group_json(const study::SweepSummary& summary, const study::SweepGroup& group) {
   Json json{

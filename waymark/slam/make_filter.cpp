@@ -4,14 +4,14 @@ namespace waymark {
 
 Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
   const Pose2 T_robot_sensor = config.sensor.T_robot_sensor();
-  if (config.observe != Observe::kRangeBearing)
-    return Error{"observe: only range-bearing can be filtered so far"};
   switch (config.filter) {
     case FilterKind::kEkf:
+      if (config.observe != Observe::kRangeBearing)
+        return Error{"observe: the EKF takes range-bearing so far; range or bearing alone: filter=fastslam"};
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor,
                                                                config.threads, config.sensor.errors));
     case FilterKind::kFastSlam:
-      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, T_robot_sensor,
+      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, config.sensor,
                                                                 config.seed, config.threads));
   }
   return Error{"filter: unknown"};

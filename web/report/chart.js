@@ -14,6 +14,9 @@ export function axis(options = {}) {
   return {
     stroke: () => color("muted"),
     font: axisFont(),
+    labelFont: axisFont(),
+    labelGap: 2,
+    labelSize: 18,
     grid: { stroke: () => color("grid"), width: 1 },
     ticks: { show: false },
     ...options,

@@ -1,6 +1,6 @@
 // The page of a sweep: error, time and certainty against one axis, a curve for every other setting.
 
-import { h, panel } from "../report/dom.js";
+import { h, panel, section } from "../report/dom.js";
 import * as format from "../report/format.js";
 import { sweepChart } from "./charts.js";
 import { abscissa, curvesOf } from "./groups.js";
@@ -18,11 +18,6 @@ const CHARTS = [
 ];
 
 const X_LABELS = { "fastslam.particles": "N" };
-
-function section(title, className, ...children) {
-  const present = children.flat().filter(Boolean);
-  return present.length ? h("section", { class: "group" }, h("h2", {}, title), h("div", { class: className }, present)) : null;
-}
 
 function charts(data) {
   const x = abscissa(data);

@@ -1,0 +1,279 @@
+#include "waymark/fastslam/landmark_forms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "waymark/core/angle.hpp"
+#include "waymark/models/observation_models.hpp"
+
+namespace waymark::fastslam {
+namespace {
+
+using kernels::kDeadMode;
+using kernels::LandmarkForm;
+using kernels::LandmarkMode;
+using kernels::LandmarkView;
+using kernels::SightingKind;
+
+// The sum of Gaussians on a ring is flat to 0.3 % when each is so wide in units of their spacing.
+constexpr double kRingOverlap = 0.6;
+// No landmark is nearer than this to a sensor whose limits do not say.
+constexpr double kLeastDepth_m = 0.1;
+// Particles of so little weight together do not hinder a landmark from changing its form.
+constexpr double kExceptions = 0.01;
+constexpr float kPointSigmaPhi_rad = 0.1F;
+constexpr float kPointLinearity = 0.1F;
+constexpr float kMergeDistanceSquared = 1.0F;
+
+constexpr float narrow(double value) { return static_cast<float>(value); }
+
+bool is_alive(const LandmarkMode& mode, std::size_t i) { return mode.log_weight[i] > 0.5F * kDeadMode; }
+
+struct Numbers {
+  float a, b, aa, ab, bb;
+};
+
+Numbers numbers(const LandmarkMode& mode, std::size_t i) {
+  const auto& g = mode.gaussian;
+  return {g.a[i], g.b[i], g.aa[i], g.ab[i], g.bb[i]};
+}
+
+void set_numbers(const LandmarkMode& mode, std::size_t i, const Numbers& m) {
+  const auto& g = mode.gaussian;
+  g.a[i] = m.a;
+  g.b[i] = m.b;
+  g.aa[i] = m.aa;
+  g.ab[i] = m.ab;
+  g.bb[i] = m.bb;
+}
+
+float mahalanobis_squared(const Numbers& m, const Numbers& n) {
+  const float da = n.a - m.a;
+  const float db = n.b - m.b;
+  const float aa = m.aa + n.aa;
+  const float ab = m.ab + n.ab;
+  const float bb = m.bb + n.bb;
+  return (bb * da * da - 2.0F * ab * da * db + aa * db * db) / (aa * bb - ab * ab);
+}
+
+/// The second hypothesis of particle i goes into the first, with the moments of both.
+void merge(const LandmarkMode& first, const LandmarkMode& second, std::size_t i) {
+  const Numbers m = numbers(first, i);
+  const Numbers n = numbers(second, i);
+  const float difference = second.log_weight[i] - first.log_weight[i];
+  const float part = 1.0F / (1.0F + std::exp(-difference));
+  const float da = n.a - m.a;
+  const float db = n.b - m.b;
+  const float spread = part * (1.0F - part);
+  set_numbers(
+      first, i,
+      {m.a + part * da, m.b + part * db, m.aa + part * (n.aa - m.aa) + spread * da * da,
+       m.ab + part * (n.ab - m.ab) + spread * da * db, m.bb + part * (n.bb - m.bb) + spread * db * db});
+  first.log_weight[i] -= std::log1p(-part);
+  second.log_weight[i] = kDeadMode;
+}
+
+/// Hypotheses stand in the order of their directions, so those that meet are neighbours.
+void merge_neighbours(const LandmarkView& landmark, std::size_t begin, std::size_t end) {
+  for (std::size_t k = 0; k + 1 < landmark.mode_count; ++k) {
+    const LandmarkMode& first = landmark.modes[k];
+    const LandmarkMode& second = landmark.modes[k + 1];
+    for (std::size_t i = begin; i < end; ++i)
+      if (is_alive(first, i) && is_alive(second, i) &&
+          mahalanobis_squared(numbers(first, i), numbers(second, i)) < kMergeDistanceSquared)
+        merge(first, second, i);
+  }
+}
+
+std::size_t best_mode(const LandmarkView& landmark, std::size_t i) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < landmark.mode_count; ++k)
+    if (landmark.modes[k].log_weight[i] > landmark.modes[best].log_weight[i]) best = k;
+  return best;
+}
+
+bool has_several(const LandmarkView& landmark, std::size_t i) {
+  int alive = 0;
+  for (std::size_t k = 0; k < landmark.mode_count; ++k) alive += is_alive(landmark.modes[k], i) ? 1 : 0;
+  return alive > 1;
+}
+
+void drop_dead_modes(LandmarkStore& store, int landmark, ParticleBlocks& blocks) {
+  for (std::size_t k = store.modes(landmark); k-- > 0 && store.modes(landmark) > 1;) {
+    const LandmarkMode& mode = store.view(landmark, {0.0, 0.0}).modes[k];
+    const double best = blocks.largest([&](std::size_t begin, std::size_t end) {
+      return static_cast<double>(*std::max_element(mode.log_weight + begin, mode.log_weight + end));
+    });
+    if (best < 0.5 * static_cast<double>(kDeadMode)) store.drop_mode(landmark, k);
+  }
+}
+
+/// The weight of the particles for which `fails`.
+template <class Fails>
+double weight_of_exceptions(const Particles& particles, ParticleBlocks& blocks, const Fails& fails) {
+  return blocks.sum([&](std::size_t begin, std::size_t end) {
+    std::array<double, 1> sum{};
+    for (std::size_t i = begin; i < end; ++i)
+      if (fails(i)) sum[0] += particles.weights()[i];
+    return sum;
+  })[0];
+}
+
+void keep_best_modes(LandmarkStore& store, int landmark, ParticleBlocks& blocks) {
+  const LandmarkView view = store.view(landmark, {0.0, 0.0});
+  blocks.run([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      set_numbers(view.modes[0], i, numbers(view.modes[best_mode(view, i)], i));
+  });
+  while (store.modes(landmark) > 1) store.drop_mode(landmark, store.modes(landmark) - 1);
+}
+
+/// p = anchor + d (cos phi, sin phi), d = 1 / rho or r, to first order.
+Numbers to_point(LandmarkForm form, const Numbers& m, float anchor_x, float anchor_y) {
+  const bool is_ray = form == LandmarkForm::kRay;
+  const float d = is_ray ? 1.0F / m.b : m.b;
+  const float d_b = is_ray ? -d * d : 1.0F;
+  const float c = std::cos(m.a);
+  const float s = std::sin(m.a);
+  const float xa = -d * s;
+  const float ya = d * c;
+  const float xb = d_b * c;
+  const float yb = d_b * s;
+  return {anchor_x + d * c, anchor_y + d * s, xa * xa * m.aa + 2.0F * xa * xb * m.ab + xb * xb * m.bb,
+          xa * ya * m.aa + (xa * yb + xb * ya) * m.ab + xb * yb * m.bb,
+          ya * ya * m.aa + 2.0F * ya * yb * m.ab + yb * yb * m.bb};
+}
+
+/// L = 4 sigma_d |cos alpha| / d of a ray, seen from a sensor.
+float linearity(const Numbers& m, float anchor_x, float anchor_y, float sensor_x, float sensor_y) {
+  const float depth = 1.0F / m.b;
+  const float c = std::cos(m.a);
+  const float s = std::sin(m.a);
+  const float dx = anchor_x + depth * c - sensor_x;
+  const float dy = anchor_y + depth * s - sensor_y;
+  const float d_squared = dx * dx + dy * dy;
+  return 4.0F * std::sqrt(m.bb) * depth * depth * std::abs(c * dx + s * dy) / d_squared;
+}
+
+bool is_linear_ring(const LandmarkStore& store, int landmark, const Particles& particles,
+                    ParticleBlocks& blocks) {
+  const float* variance = store.view(landmark, {0.0, 0.0}).modes[0].gaussian.aa;
+  return weight_of_exceptions(particles, blocks, [&](std::size_t i) {
+           return !(variance[i] < kPointSigmaPhi_rad * kPointSigmaPhi_rad);
+         }) < kExceptions;
+}
+
+bool is_linear_ray(const LandmarkStore& store, int landmark, const Particles& particles,
+                   const kernels::SensorMount& mount, ParticleBlocks& blocks) {
+  const Eigen::Vector2d origin_m = particles.pose(0).position();
+  const LandmarkView view = store.view(landmark, origin_m);
+  const double exceptions = blocks.sum([&](std::size_t begin, std::size_t end) {
+    BlockScratch scratch;
+    const kernels::PoseColumns sensors =
+        load_sensors(particles, mount, origin_m, {begin, end - begin}, scratch);
+    std::array<double, 1> sum{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Numbers m = numbers(view.modes[0], i);
+      const float L = linearity(m, view.anchor_x[i] + view.offset_x, view.anchor_y[i] + view.offset_y,
+                                sensors.x[i - begin], sensors.y[i - begin]);
+      if (!(m.b > 0.0F && L < kPointLinearity)) sum[0] += particles.weights()[i];
+    }
+    return sum;
+  })[0];
+  return exceptions < kExceptions;
+}
+
+/// The landmark at (range, bearing) from one particle's sensor, as unsure as R in the frame of its ray.
+Numbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin_m, const RangeBearing& z,
+                      const Eigen::Vector2d& R) {
+  const auto [p, G_pose, G] = RangeBearingModel::locate(T_world_sensor, {}, z);
+  const Eigen::Vector2f mean = (p - origin_m).cast<float>();
+  const Eigen::Matrix2f Sigma = (G * R.asDiagonal() * G.transpose()).cast<float>();
+  return {mean.x(), mean.y(), Sigma(0, 0), Sigma(0, 1), Sigma(1, 1)};
+}
+
+}  // namespace
+
+FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor) {
+  if (seen.kind == SightingKind::kRangeBearing) return {};
+  if (seen.kind == SightingKind::kBearing) {
+    const double nearest = 1.0 / std::max(sensor.min_range_m, kLeastDepth_m);
+    const double farthest = std::min(nearest, 1.0 / sensor.max_range_m);
+    const double sigma = 0.25 * (nearest - farthest);
+    return {LandmarkForm::kRay, 1, {narrow(0.5 * (nearest + farthest)), narrow(sigma * sigma), 0.0F, 0.0F}};
+  }
+  const double view_rad = to_radians(std::clamp(sensor.field_of_view_deg, 1.0, 360.0));
+  const double sigma_phi = std::sqrt(0.6 * std::sqrt(static_cast<double>(seen.R_rr)) / seen.range);
+  const double wanted = std::ceil(kRingOverlap * view_rad / sigma_phi);
+  const double modes = std::clamp(wanted, 1.0, static_cast<double>(kernels::kMaxModes));
+  const double spacing = view_rad / modes;
+  return {LandmarkForm::kRing,
+          static_cast<std::size_t>(modes),
+          {0.0F, 0.0F, narrow(spacing), narrow(kRingOverlap * spacing * kRingOverlap * spacing)}};
+}
+
+void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,
+                    const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
+                    ParticleBlocks& blocks) {
+  const LandmarkView view = store.view(landmark, {0.0, 0.0});
+  const Eigen::Vector2d origin_m(view.offset_x, view.offset_y);
+  const bool draws_range = seen.kind == SightingKind::kBearing;
+  const double half_view_rad = to_radians(0.5 * sensor.field_of_view_deg);
+  const double low = draws_range ? sensor.min_range_m : -half_view_rad;
+  const double high = draws_range ? sensor.max_range_m : half_view_rad;
+  const double variance = (high - low) * (high - low) / 12.0;
+  const Eigen::Vector2d R =
+      draws_range ? Eigen::Vector2d(variance, seen.R_bb) : Eigen::Vector2d(seen.R_rr, variance);
+  // The measured direction includes the sensor's yaw.
+  const double bearing_rad =
+      wrap_angle(std::atan2(static_cast<double>(seen.sin_bearing), static_cast<double>(seen.cos_bearing)) -
+                 to_radians(sensor.yaw_deg));
+  blocks.run([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double drawn =
+          RandomStream(key.seed, key.purpose, key.step, static_cast<std::uint32_t>(i)).uniform(low, high);
+      const RangeBearing z{draws_range ? drawn : static_cast<double>(seen.range),
+                           draws_range ? bearing_rad : drawn};
+      const Pose2 T_world_sensor = particles.pose(static_cast<int>(i)) * sensor.T_robot_sensor();
+      set_numbers(view.modes[0], i, guessed_point(T_world_sensor, origin_m, z, R));
+    }
+  });
+}
+
+bool can_take(LandmarkForm form, SightingKind kind) {
+  return form == LandmarkForm::kPoint ||
+         kind == (form == LandmarkForm::kRay ? SightingKind::kBearing : SightingKind::kRange);
+}
+
+void tidy_modes(LandmarkStore& store, int landmark, const Particles& particles, ParticleBlocks& blocks) {
+  if (store.modes(landmark) == 1) return;
+  blocks.run([view = store.view(landmark, {0.0, 0.0})](std::size_t begin, std::size_t end) {
+    merge_neighbours(view, begin, end);
+  });
+  drop_dead_modes(store, landmark, blocks);
+  if (store.modes(landmark) == 1) return;
+  const LandmarkView view = store.view(landmark, {0.0, 0.0});
+  const double exceptions =
+      weight_of_exceptions(particles, blocks, [&view](std::size_t i) { return has_several(view, i); });
+  if (exceptions < kExceptions) keep_best_modes(store, landmark, blocks);
+}
+
+void become_point_if_linear(LandmarkStore& store, int landmark, const Particles& particles,
+                            const kernels::SensorMount& mount, ParticleBlocks& blocks) {
+  const LandmarkForm form = store.form(landmark);
+  if (form == LandmarkForm::kPoint || store.modes(landmark) > 1) return;
+  const bool is_linear = form == LandmarkForm::kRing
+                             ? is_linear_ring(store, landmark, particles, blocks)
+                             : is_linear_ray(store, landmark, particles, mount, blocks);
+  if (!is_linear) return;
+  const LandmarkView view = store.view(landmark, {0.0, 0.0});
+  blocks.run([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      set_numbers(view.modes[0], i,
+                  to_point(form, numbers(view.modes[0], i), view.anchor_x[i], view.anchor_y[i]));
+  });
+  store.become_point(landmark);
+}
+
+}  // namespace waymark::fastslam

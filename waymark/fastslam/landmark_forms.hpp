@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "waymark/fastslam/landmark_store.hpp"
+#include "waymark/fastslam/particle_step.hpp"
+#include "waymark/fastslam/particles.hpp"
+#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/models/landmark_sensor.hpp"
+
+namespace waymark::fastslam {
+
+/// How a landmark begins.
+struct FirstForm {
+  kernels::LandmarkForm form = kernels::LandmarkForm::kPoint;
+  std::size_t modes = 1;
+  kernels::FirstGuess guess;
+};
+
+/// A bearing begins as a ray whose inverse distance covers the sensor's limits, mean +- 2 sigma; a range as a
+/// ring of hypotheses over the sensor's field of view, so many that each stays nearly linear while the robot
+/// moves as far as the landmark is away: b sigma_phi^2 / 2 < 0.3 sigma_r (after Blanco et al. 2008 and
+/// Djugash and Singh 2008).
+[[nodiscard]] FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor);
+
+/// A point that each particle draws: on the ray within the sensor's limits where only the bearing was
+/// measured, on the arc within its field of view where only the range was; as unsure as the draw.
+void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,
+                    const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
+                    ParticleBlocks& blocks);
+
+/// Whether a landmark of such a form can be updated by such a sighting.
+[[nodiscard]] bool can_take(kernels::LandmarkForm form, kernels::SightingKind kind);
+
+/// Hypotheses that have come together become one, those that no particle has any more are forgotten, and when
+/// hardly any particle has more than one left, each keeps its best.
+void tidy_modes(LandmarkStore& store, int landmark, const Particles& particles, ParticleBlocks& blocks);
+
+/// Turns a ray or a ring of one hypothesis into a point if that is nearly linear for hardly any exception: a
+/// ring when sigma_phi < 0.1, a ray when L = 4 sigma_d |cos alpha| / d < 0.1 with sigma_d = sigma_rho /
+/// rho^2, alpha the parallax and d the distance from the sensor (Civera, Davison, Montiel 2008).
+void become_point_if_linear(LandmarkStore& store, int landmark, const Particles& particles,
+                            const kernels::SensorMount& mount, ParticleBlocks& blocks);
+
+}  // namespace waymark::fastslam
