@@ -119,7 +119,7 @@ SweepPlan study_plan() {
   constexpr int kSeeds = 20;
   Axis seed{std::string(kSeed), {}};
   for (int i = 1; i <= kSeeds; ++i) seed.values.push_back(std::to_string(i));
-  const Axis particles{"fastslam.particles", {"10", "30", "75", "150", "400", "1000"}};
+  const Axis particles{"fastslam.particles", {"10", "30", "75", "150", "400", "1000", "4000"}};
   return {.input = "sim:study",
           .user = {},
           .blocks = {{seed, {"filter", {"fastslam"}}, observable(FilterKind::kFastSlam), particles},
