@@ -49,7 +49,7 @@ class Block {
 
 void count_items(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kCount));
-  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations() * kCount) * 1e-9,
+  state.counters["ns"] = benchmark::Counter(static_cast<double>(state.iterations()) * kCount * 1e-9,
                                             benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
@@ -95,7 +95,7 @@ void normals(benchmark::State& state) {
 
 void draw(benchmark::State& state) {
   Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
-  const WorldPoses world{block.x_m.data(), block.y_m.data(), block.theta_rad.data()};
+  const MovingPoses world{block.x_m.data(), block.y_m.data(), block.theta_rad.data()};
   for (auto _ : state)
     draw_poses(block.increments, block.normals[0], block.normals[1], block.normals[2], block.poses, world,
                kCount);

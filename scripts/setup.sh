@@ -11,6 +11,7 @@ packages=(
 )
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git
+  libopenmpi-dev openmpi-bin
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
 )
 

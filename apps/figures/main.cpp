@@ -185,7 +185,7 @@ double part_inside(const std::vector<StudyRun>& runs, double from_s, double to_s
   return all > 0 ? static_cast<double>(inside) / all : NAN;
 }
 
-int study(int seeds, const std::vector<std::string>& extra) {
+int study_world(int seeds, const std::vector<std::string>& extra) {
   std::vector<StudyRun> runs(static_cast<std::size_t>(seeds));
   ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
   team.run(seeds, [&](int i) { runs[static_cast<std::size_t>(i)] = study_run(i + 1, extra); });
@@ -237,7 +237,7 @@ int main(int argc, char** argv) {
   loop->callback([&] { status = waymark::loop_closure(folder, settings); });
   auto* study = app.add_subcommand("study", "the simulated world that serves every comparison");
   study->add_option("--seeds", study_seeds);
-  study->callback([&] { status = waymark::study(study_seeds, settings); });
+  study->callback([&] { status = waymark::study_world(study_seeds, settings); });
   int frames = 5000;
   int threads = 1;
   auto* compressed =
@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
   compressed->callback([&] { status = waymark::compressed(frames, threads); });
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
-  waymark::add_consistency(app);
+  waymark::add_consistency(app, status);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

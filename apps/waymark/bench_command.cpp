@@ -14,14 +14,16 @@ namespace {
 
 struct Suite {
   const char* name;
-  std::vector<BenchResult> (*run)(const Machine&, const BenchProgress&);
+  std::vector<BenchResult> (*run)(const Machine&, BenchScope, const BenchProgress&);
 };
 constexpr std::array kSuites{Suite{"ekf", bench_ekf}};
 
 struct Request {
   std::vector<std::string> suites;
+  bool quick = false;
   Verbosity verbosity;
 
+  [[nodiscard]] BenchScope scope() const { return quick ? BenchScope::kQuick : BenchScope::kFull; }
   [[nodiscard]] bool wants(const std::string& suite) const {
     return suites.empty() || std::ranges::find(suites, suite) != suites.end();
   }
@@ -62,7 +64,7 @@ Result<void> bench(const Request& request) {
   for (const Suite& suite : kSuites) {
     if (!request.wants(suite.name)) continue;
     ProgressBar bar(suite.name, request.verbosity);
-    for (auto& result : suite.run(machine, [&bar](double fraction) { bar.show(fraction); }))
+    for (auto& result : suite.run(machine, request.scope(), [&bar](double fraction) { bar.show(fraction); }))
       results.push_back(std::move(result));
   }
   if (request.verbosity.json) print_json(machine, results);
@@ -79,8 +81,10 @@ void add_bench(CLI::App& app, Work& work) {
   for (const Suite& suite : kSuites) names.emplace_back(suite.name);
   command->add_option("suite", request->suites, "which part; without it everything")
       ->check(CLI::IsMember(names));
+  command->add_flag("--quick", request->quick, "a rough answer in seconds: smaller maps, fewer rounds");
   add_verbosity(*command, request->verbosity);
-  command->footer("Example:\n  waymark bench\n  waymark bench ekf --json > bench.json");
+  command->footer(
+      "Example:\n  waymark bench\n  waymark bench --quick\n  waymark bench ekf --json > bench.json");
   command->callback([&work, request] { work = [request] { return bench(*request); }; });
 }
 

@@ -68,6 +68,7 @@ int run_program(int argc, char** argv) {
   add_demo(app, work);
   add_sim(app, work);
   add_eval(app, work);
+  add_sweep(app, work);
   add_check(app, work);
   add_bench(app, work);
   add_config(app, work);

@@ -125,6 +125,14 @@ TEST_F(ConfigTest, SuggestsTheNearestSectionWhereSeveralHaveTheKey) {
   EXPECT_THAT(error_of("camra.x_m", "1"), HasSubstr("did you mean camera.x_m?"));
 }
 
+TEST_F(ConfigTest, ListsCloseKeysTheLikeliestFirst) {
+  using testing::ElementsAre;
+  EXPECT_THAT(schema_.close_keys("particle", 3), ElementsAre("filter.particles"));
+  EXPECT_THAT(schema_.close_keys("run.nam", 3), ElementsAre("run.name"));
+  EXPECT_THAT(schema_.close_keys("xyzzy", 3), ElementsAre());
+  EXPECT_EQ(schema_.close_keys("seed", 1), std::vector<std::string>{"seed"});
+}
+
 TEST_F(ConfigTest, TakesAssignmentsFromTheCommandLine) {
   EXPECT_TRUE(schema_.set_assignment("run.name=a=b", "--set").ok());
   EXPECT_EQ(options_.name, "a=b");

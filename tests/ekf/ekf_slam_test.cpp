@@ -1,5 +1,6 @@
 #include "waymark/ekf/ekf_slam.hpp"
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -184,6 +185,103 @@ TEST(EkfSlam, SavesTheWholeBelief) {
   EXPECT_EQ(map.landmarks.size(), 16);
   EXPECT_EQ(map.covariance, filter.state().covariance());
   EXPECT_TRUE(is_covariance(map.covariance));
+}
+
+/// A filter that knows where three landmarks are, and then loses most of its sense of where it is itself.
+class LargeInnovation : public testing::Test {
+ protected:
+  static constexpr int kLandmarks = 3;
+
+  [[nodiscard]] static Pose2 surprised(const EkfOptions& options) {
+    EkfSlam filter(options, {1.0}, {});
+    std::vector<Observation> first;
+    for (int i = 0; i < kLandmarks; ++i) first.push_back(sight(i, {}, 1e-4));
+    filter.correct(first);
+    filter.predict({{}, prior().asDiagonal()});
+    std::vector<Observation> then;
+    for (int i = 0; i < kLandmarks; ++i) then.push_back(sight(i, truth(), kSigma));
+    filter.correct(then);
+    return filter.pose().T_world_robot;
+  }
+
+  /// Minus twice the log posterior of a pose; the landmarks are as good as known.
+  [[nodiscard]] static double cost(const Pose2& pose) {
+    const Eigen::Vector3d e = difference(pose, Pose2{});
+    double cost = e.dot(e.cwiseQuotient(prior()));
+    for (int i = 0; i < kLandmarks; ++i) {
+      const auto z = std::get<RangeBearing>(sight(i, truth(), kSigma).value);
+      const auto h = std::get<RangeBearing>(sight(i, pose, kSigma).value);
+      cost += (std::pow(z.range_m - h.range_m, 2) + std::pow(wrap_angle(z.bearing_rad - h.bearing_rad), 2)) /
+              (kSigma * kSigma);
+    }
+    return cost;
+  }
+
+  [[nodiscard]] static Observation sight(int number, const Pose2& pose, double sigma) {
+    const Eigen::Vector2d places[kLandmarks] = {{3.0, 1.0}, {2.0, -2.0}, {-1.0, 3.0}};
+    const Eigen::Vector2d p = pose.inverse() * places[number];
+    Observation observation{LandmarkId{LandmarkId::Family::kMarker, number},
+                            RangeBearing{p.norm(), std::atan2(p.y(), p.x())},
+                            {}};
+    observation.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
+    return observation;
+  }
+
+  static Pose2 truth() { return {0.6, -0.5, 0.7}; }
+  static Eigen::Vector3d prior() { return {0.25, 0.25, 0.25}; }
+  static constexpr double kSigma = 0.02;
+};
+
+TEST_F(LargeInnovation, IsFollowedToTheMostProbablePose) {
+  const Pose2 plain = surprised({.consistency = ekf::Consistency::kStandard, .iterations = 0});
+  const Pose2 iterated = surprised({.consistency = ekf::Consistency::kStandard, .iterations = 20});
+  const double best = cost(iterated);
+  EXPECT_GT(cost(plain), best + 10.0) << "a linear step falls short";
+  constexpr double kStep = 0.02;  // a noise's standard deviation
+  for (const Pose2& aside : {Pose2{kStep, 0.0, 0.0}, Pose2{-kStep, 0.0, 0.0}, Pose2{0.0, kStep, 0.0},
+                             Pose2{0.0, -kStep, 0.0}, Pose2{0.0, 0.0, kStep}, Pose2{0.0, 0.0, -kStep}})
+    EXPECT_GT(cost(iterated * aside), best);
+}
+
+TEST_F(LargeInnovation, IsFollowedInTheInvariantFilterToo) {
+  const Pose2 pose = surprised({.iterations = 20});
+  EXPECT_LT(difference(pose, truth()).norm(), 0.03);
+}
+
+TEST(EkfSlam, IteratedUpdatesSeeNoHeadingThatNobodySaw) {
+  // Nothing but the start says which way the world lies: that doubt must stay.
+  constexpr double kStartVariance = 0.01;
+  RandomStream random(21, StreamPurpose::kWorld);
+  EkfSlam filter({.iterations = 20}, {1.0}, {});
+  filter.predict({{}, Eigen::Vector3d(0.0, 0.0, kStartVariance).asDiagonal()});
+  for (int step = 0; step < 300; ++step) {
+    filter.predict({{0.5, 0.0, 0.1}, Eigen::Vector3d(0.04, 0.04, 0.04).asDiagonal()});
+    std::vector<Observation> observations;
+    for (int i = 0; i < 3; ++i) {
+      Observation z{LandmarkId{LandmarkId::Family::kMarker, i},
+                    RangeBearing{3.0 + 0.5 * random.normal(), 0.8 * i + 0.3 * random.normal()},
+                    {}};
+      z.covariance = Eigen::Vector2d(0.01, 0.01).asDiagonal();
+      observations.push_back(z);
+    }
+    filter.correct(observations);
+    ASSERT_GT(filter.pose().covariance(2, 2), 0.999 * kStartVariance) << "at step " << step;
+  }
+}
+
+TEST(EkfSlam, HeavyTailsTakeAnOutlierForWhatItIs) {
+  const auto shift = [](ekf::Likelihood likelihood) {
+    CircleWorld world(6);
+    EkfSlam filter({.likelihood = likelihood}, {1.0}, world.mount());
+    drive(filter, world, 100);
+    auto scan = world.look();
+    const Pose2 before = filter.pose().T_world_robot;
+    auto& z = std::get<RangeBearing>(scan[0].value);
+    z.range_m += 12.0 * std::sqrt((*scan[0].covariance)(0, 0));
+    filter.correct(scan);
+    return difference(filter.pose().T_world_robot, before).head<2>().norm();
+  };
+  EXPECT_LT(shift(ekf::Likelihood::kStudent), 0.5 * shift(ekf::Likelihood::kGaussian));
 }
 
 TEST(EkfSlam, FindsItselfAgainAfterASlipThatItsOdometryDidNotSee) {

@@ -29,12 +29,16 @@ struct Fixture {
 
   /// z - h of a sighting that shows nothing but its errors. The landmark's place is certain.
   void observe(int number, const Eigen::Vector2d& difference) {
-    const SightingError error = errors.of(state, marker(number), 1.0);
+    const SightingError error = errors.of(marker(number), 1.0);
     Sighting sighting;
-    sighting.nu = difference - error.expected;
+    sighting.nu = difference - state.expected(error.terms);
     sighting.errors = error.terms;
     sighting.R = 1e-12 * Eigen::Matrix2d::Identity() + error.unmodelled;
     ASSERT_TRUE(state.update({&sighting, 1}));
+  }
+
+  [[nodiscard]] Eigen::Vector2d expected(int number) const {
+    return state.expected(errors.of(marker(number), 1.0).terms);
   }
 
   LastingErrors errors;
@@ -46,7 +50,7 @@ TEST(LastingErrors, CostNothingWhereThereAreNone) {
   EXPECT_EQ(f.errors.pairs(), 0);
   f.errors.begin_scan();
   f.errors.sight(f.state, marker(1));
-  const SightingError error = f.errors.of(f.state, marker(1), 3.0);
+  const SightingError error = f.errors.of(marker(1), 3.0);
   EXPECT_FALSE(error.terms[0].takes_part());
   EXPECT_FALSE(error.terms[1].takes_part());
   EXPECT_TRUE(error.unmodelled.isZero(0.0));
@@ -56,7 +60,7 @@ TEST(LastingErrors, GrowWithRange) {
   Fixture f(example());
   f.errors.begin_scan();
   f.errors.sight(f.state, marker(1));
-  const SightingError error = f.errors.of(f.state, marker(1), 5.0);
+  const SightingError error = f.errors.of(marker(1), 5.0);
   EXPECT_NEAR(error.terms[0].J(0, 0), 0.1, 1e-15);
   EXPECT_NEAR(error.terms[0].J(1, 1), to_radians(0.5), 1e-15);
   EXPECT_NEAR(error.terms[1].J(0, 0), 0.05, 1e-15);
@@ -72,15 +76,14 @@ TEST(LastingErrors, AreForgottenAlongTheWay) {
   f.errors.sight(f.state, marker(1));
   const Eigen::Vector2d seen(0.02, -0.01);
   f.observe(1, seen);
-  EXPECT_NEAR(f.errors.of(f.state, marker(1), 1.0).expected[0], seen[0], 1e-6) << "standing still";
+  EXPECT_NEAR(f.expected(1)[0], seen[0], 1e-6) << "standing still";
 
   f.errors.drive(3.0);
   f.errors.begin_scan();
   f.errors.sight(f.state, marker(1));
-  EXPECT_NEAR(f.errors.of(f.state, marker(1), 1.0).expected[0], seen[0] * std::exp(-1.5), 1e-6);
+  EXPECT_NEAR(f.expected(1)[0], seen[0] * std::exp(-1.5), 1e-6);
   f.errors.sight(f.state, marker(2));
-  EXPECT_NEAR(f.errors.of(f.state, marker(2), 1.0).expected[0], 0.0, 1e-12)
-      << "another landmark's are its own";
+  EXPECT_NEAR(f.expected(2)[0], 0.0, 1e-12) << "another landmark's are its own";
 }
 
 TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
@@ -88,16 +91,16 @@ TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
   f.errors.begin_scan();
   const int remembered = f.errors.pairs() - 1;
   for (int number = 0; number <= remembered; ++number) f.errors.sight(f.state, marker(number));
-  const SightingError first = f.errors.of(f.state, marker(0), 2.0);
+  const SightingError first = f.errors.of(marker(0), 2.0);
   EXPECT_TRUE(first.terms[1].takes_part());
   EXPECT_TRUE(first.unmodelled.isZero(0.0));
-  const SightingError last = f.errors.of(f.state, marker(remembered), 2.0);
+  const SightingError last = f.errors.of(marker(remembered), 2.0);
   EXPECT_FALSE(last.terms[1].takes_part());
   EXPECT_NEAR(last.unmodelled(0, 0), 0.02 * 0.02, 1e-15);
 
   f.errors.begin_scan();
   f.errors.sight(f.state, marker(remembered));
-  EXPECT_TRUE(f.errors.of(f.state, marker(remembered), 2.0).terms[1].takes_part())
+  EXPECT_TRUE(f.errors.of(marker(remembered), 2.0).terms[1].takes_part())
       << "takes over from one that is not in view";
 }
 

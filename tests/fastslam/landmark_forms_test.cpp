@@ -31,7 +31,7 @@ TEST(FirstForm, ARingCoversTheFieldOfViewEvenly) {
   seen.R_rr = 0.0025F;
   const FirstForm first = first_form(seen, kSensor);
   EXPECT_EQ(first.form, LandmarkForm::kRing);
-  const double modes = static_cast<double>(first.modes);
+  const auto modes = static_cast<double>(first.modes);
   EXPECT_NEAR(modes * first.guess.phi_spacing, 0.5 * kPi, 1e-5);
   // The density that the hypotheses add up to, halfway between two of them and on one.
   const auto density = [&](double phi) {

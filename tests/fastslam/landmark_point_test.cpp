@@ -20,7 +20,7 @@ class OneLandmark {
  public:
   OneLandmark(LandmarkForm form, const std::vector<std::vector<float>>& modes) : numbers_(modes) {
     for (auto& n : numbers_)
-      modes_.push_back({{&n[0], &n[1], &n[2], &n[3], &n[4]}, n.size() > 5 ? &n[5] : nullptr});
+      modes_.push_back({{n.data(), &n[1], &n[2], &n[3], &n[4]}, n.size() > 5 ? &n[5] : nullptr});
     view_ = {form, 10.0F, 20.0F, &anchor_[0], &anchor_[1], modes_.data(), modes_.size()};
   }
   [[nodiscard]] PointGaussian point() const { return point_of(view_, 0); }

@@ -116,7 +116,7 @@ class ParticleScene {
     const auto& landmark = sighting.landmark;
     landmark.anchor_x[i] = normal(0.3);
     landmark.anchor_y[i] = normal(0.3);
-    const double modes = static_cast<double>(modes_.size());
+    const auto modes = static_cast<double>(modes_.size());
     for (std::size_t k = 0; k < modes_.size(); ++k) {
       const auto& m = modes_[k].gaussian;
       // As a point (a, b) is (x, y), as a ray (phi, rho), as a ring (phi, r).

@@ -119,8 +119,65 @@ status=$?
 "$waymark" demo -o demo --json | node -e 'JSON.parse(require("fs").readFileSync(0))' || fail 'demo --json prints no JSON'
 [ -s demo/report.html ] || fail 'demo wrote no report'
 
+# The bench: every figure with its name, what it depends on, a positive value and a unit.
+refuses 2 'ekf' bench ukf
+does bench ekf --quick
+grep -q 'ekf.step ' out.txt || fail 'bench prints no step'
+does bench ekf --quick --json
+node -e '
+  const { machine, results } = JSON.parse(require("fs").readFileSync(0));
+  const keys = {"ekf.step": "landmarks sightings mode", "ekf.step_wall": "landmarks sightings threads",
+    "ekf.plain_rank_update": "landmarks sightings", "ekf.plain_rank_update_ratio": "landmarks sightings",
+    "ekf.plain_textbook": "landmarks sightings", "ekf.plain_textbook_ratio": "landmarks sightings",
+    "ekf.flop_bound": "landmarks sightings", "ekf.flop_bound_distance": "landmarks sightings",
+    "ekf.block": "landmarks sightings block"};
+  const expect = (good, what) => { if (!good) { console.error(what); process.exitCode = 1; } };
+  for (const key of ["cpu", "cores", "instruction_set", "fma_gflops", "version", "compiler"])
+    expect(machine[key], "machine." + key);
+  for (const name in keys) expect(results.some((r) => r.name === name), "no " + name);
+  for (const mode of ["invariant", "standard", "compressed invariant", "compressed standard"])
+    expect(results.some((r) => r.name === "ekf.step" && r.params.mode === mode), "no mode " + mode);
+  for (const r of results) {
+    expect(Object.keys(r).join(" ") === "name params value unit", "keys of " + JSON.stringify(r));
+    expect(Object.keys(r.params).join(" ") === keys[r.name], "params of " + JSON.stringify(r));
+    expect(r.value > 0 && ["ms", "us", "x"].includes(r.unit), "value or unit of " + JSON.stringify(r));
+  }' <out.txt || fail 'bench --json is not what it should be'
+
+# A sweep: mistakes, a table, and going on after it was killed.
+refuses 2 'close keys: fastslam.particles' sweep sim:square -o s --axis particles=1,2
+refuses 2 'nothing varies' sweep sim:square -o s
+refuses 2 'nowhere' sweep nowhere -o s --axis seed=1,2
+refuses 2 'allowed: whole number' sweep sim:square -o s --axis fastslam.particles=10,none
+quick=(sweep sim:square --set sim.side_m=2 --set sim.speed_mps=1 --axis seed=1..3 --axis filter=ekf,fastslam)
+does "${quick[@]}" -o s
+[ "$(wc -l <s/sweep.csv)" -eq 7 ] || fail "sweep: expected a header and 6 rows: $(cat s/sweep.csv)"
+[ -s s/sweep.html ] || fail 'sweep wrote no page'
+refuses 2 'is of another sweep' sweep sim:square -o s --axis seed=1..3
+settings() { cut -d, -f1-8 "$1"; }  # without times
+long=(sweep sim:study --axis seed=1..40 --axis filter=fastslam --set fastslam.particles=50 --threads 2)
+"$waymark" "${long[@]}" -o killed >out.txt 2>err.txt &
+pid=$!
+until [ -f killed/journal.csv ] && [ "$(wc -l <killed/journal.csv)" -gt 4 ]; do sleep 0.02; done
+kill -KILL $pid
+wait $pid 2>/dev/null
+done_before=$(($(wc -l <killed/journal.csv) - 2))
+does "${long[@]}" -o killed
+grep -q "of 40 runs are there already" out.txt || fail "sweep did not go on: $(cat out.txt)"
+[ "$done_before" -lt 40 ] || fail 'the sweep was over before it was killed'
+[ "$(wc -l <killed/sweep.csv)" -eq 41 ] || fail 'a sweep that went on lacks runs'
+[ "$(sort killed/journal.csv | uniq -d | wc -l)" -eq 0 ] || fail 'a sweep that went on made runs twice'
+if command -v mpirun >/dev/null; then
+  if mpirun -n 2 --oversubscribe --allow-run-as-root --mca btl self,vader "$waymark" "${quick[@]}" -o mpi >out.txt 2>err.txt; then
+    cmp <(settings s/sweep.csv) <(settings mpi/sweep.csv) || fail 'mpirun gives another table'
+  elif ! grep -q 'built without MPI' err.txt; then
+    fail "mpirun: $(cat err.txt)"
+  fi
+else
+  echo 'SKIPPED: no mpirun on this machine'
+fi
+
 # Every level of help shows an example.
-for command in '' run demo sim eval check config; do
+for command in '' run demo sim eval sweep check bench config; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "waymark/io/files.hpp"
-#include "waymark/report/report_page.hpp"
+#include "waymark/report/pages.hpp"
 
 #include "sample_report.hpp"
 
@@ -14,7 +14,7 @@ TEST(Report, IsOneFileWithoutAddresses) {
   const std::string html = render_report(sample_report(100));
   EXPECT_NE(html.find("Leon Sorokin"), std::string::npos);  // uPlot and its licence
   EXPECT_NE(html.find("uplot"), std::string::npos);
-  EXPECT_EQ(html.find(kReportDataMark), std::string::npos);
+  EXPECT_EQ(html.find(kPageDataMark), std::string::npos);
   for (const char* load : {"http://", "https://", "src=\"", "@import", "url(", "fetch(", "XMLHttpRequest"}) {
     EXPECT_EQ(html.find(load), std::string::npos) << load;
   }

@@ -102,5 +102,29 @@ TEST(Drive, CornersAreWhereSidesEnd) {
   EXPECT_NEAR(first.y_m, 3.0, 1e-9);
 }
 
+// 0.005 m/s and 0.05 rad/s in every step of 0.1 s, on straight lines as in turns on the spot. A thousand
+// draws tell a standard deviation to 2.2 %.
+TEST(Drive, RobotOfTheReportErrsAsStatedPerStep) {
+  SimOptions options = *scenario("report-l-shape");
+  options.path.laps = 4;
+  const Drive driven = drive(make_path(options.path, 1), options, 1);
+  double forward = 0.0;
+  double turn_straight = 0.0;
+  double turn_on_spot = 0.0;
+  int straight = 0;
+  int on_spot = 0;
+  for (const DriveStep& step : driven.steps) {
+    const bool turns = std::abs(step.command.turn_rad) > 0.07;
+    if (!turns) forward += step.slip.x() * step.slip.x();
+    (turns ? turn_on_spot : turn_straight) += step.slip.z() * step.slip.z();
+    ++(turns ? on_spot : straight);
+  }
+  ASSERT_GT(straight, 800);
+  ASSERT_GT(on_spot, 100);
+  EXPECT_NEAR(std::sqrt(forward / straight), 0.005 * 0.1, 5e-5);
+  EXPECT_NEAR(std::sqrt(turn_straight / straight), 0.05 * 0.1, 5e-4);
+  EXPECT_NEAR(std::sqrt(turn_on_spot / on_spot), 0.05 * 0.1, 1e-3);
+}
+
 }  // namespace
 }  // namespace waymark::sim

@@ -24,6 +24,8 @@ TEST(SimOptions, ScenariosDriveDifferentPaths) {
   EXPECT_EQ(scenario("figure-eight")->path.shape, Shape::kFigureEight);
   EXPECT_EQ(scenario("random")->path.shape, Shape::kRandom);
   EXPECT_EQ(scenario("study")->path.laps, 2);
+  EXPECT_EQ(scenario("report-l-shape")->path.shape, Shape::kLShape);
+  EXPECT_EQ(scenario("report-square")->wheels.odometry, OdometryKind::kVelocity);
 }
 
 TEST(SimOptions, UnknownScenarioNamesTheNearest) {

@@ -36,5 +36,17 @@ TEST(Consistency, DoesNotDependOnThreads) {
   EXPECT_EQ(one.position_rmse_m, two.position_rmse_m);
 }
 
+TEST(Consistency, ComparesModesOverTheSameWorlds) {
+  ConsistencyOptions options;
+  options.runs = 2;
+  options.steps = 30;
+  const auto comparison = compare_modes(options, 2);
+  ASSERT_EQ(comparison.modes.size(), 3U);
+  EXPECT_EQ(comparison.modes[0].name, "invariant");
+  EXPECT_EQ(comparison.modes[2].name, "standard");
+  EXPECT_EQ(comparison.modes[2].result.nees, study_consistency(ekf::Consistency::kStandard, options, 1).nees);
+  EXPECT_NE(comparison.modes[0].result.nees, comparison.modes[2].result.nees);
+}
+
 }  // namespace
 }  // namespace waymark::study

@@ -2,7 +2,7 @@
 
 #include <sys/mman.h>
 
-#include <cstdint>
+#include <memory>
 #include <new>
 
 namespace waymark {
@@ -18,8 +18,9 @@ ZeroedMemory allocate_zeros(std::size_t bytes) {
   const std::size_t alignment = huge ? kHugePage : kCacheLine;
   void* const block = std::calloc(bytes + alignment, 1);
   if (block == nullptr) throw std::bad_alloc();
-  const auto address = reinterpret_cast<std::uintptr_t>(block);
-  void* const data = reinterpret_cast<void*>((address + alignment - 1) / alignment * alignment);
+  void* data = block;
+  std::size_t room = bytes + alignment;
+  std::align(alignment, bytes, data, room);
 #ifdef MADV_HUGEPAGE
   // A wish: without huge pages everything is only slower.
   if (huge) madvise(data, bytes, MADV_HUGEPAGE);

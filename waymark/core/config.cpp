@@ -182,6 +182,21 @@ std::vector<std::string> Schema::keys() const {
   return names;
 }
 
+std::vector<std::string> Schema::close_keys(std::string_view name, std::size_t count) const {
+  // The last part counts as much as the whole: sections are what is left out or mistaken.
+  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
+  const auto distance = [&](const std::string& key) {
+    return std::min(edit_distance(name, key), edit_distance(last_part(name), last_part(key)));
+  };
+  std::vector<std::string> names = keys();
+  std::erase_if(names, [&](const auto& key) {
+    return distance(key) > std::max<std::size_t>(1, last_part(name).size() / 3);
+  });
+  std::ranges::stable_sort(names, {}, distance);
+  names.resize(std::min(count, names.size()));
+  return names;
+}
+
 std::string Schema::value(std::string_view key) const { return find(key)->get(); }
 
 /// A key typed without its section, or with a wrong one, is nearest to the key with the same last part.

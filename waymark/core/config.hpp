@@ -65,6 +65,8 @@ class Schema {
   /// The text of the value in force; the key must exist.
   [[nodiscard]] std::string value(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
+  /// The keys that a mistyped one may have meant, the likeliest first, at most `count` of them; may be none.
+  [[nodiscard]] std::vector<std::string> close_keys(std::string_view name, std::size_t count) const;
 
  private:
   struct Key {

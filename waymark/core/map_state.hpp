@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct LandmarkEstimate {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   int observations = 0;
+  /// Of a particle filter: the mean of what the particles claim each for itself, without the spread between
+  /// them.
+  std::optional<Eigen::Matrix3d> within;
 };
 
 /// What a filter believes at one moment, each landmark with its marginal covariance.

@@ -84,7 +84,7 @@ void Accumulators::project(std::span<const Sighting> sightings, const State& sta
 
 void Accumulators::absorb(const Gain& gain) {
   const kernels::RowBand all{0, n_};
-  kernels::triangular_solve(gain.L, gain.ld_L, gain.rows, G_.data(), ld_, n_);
+  kernels::triangular_solve(gain.L, gain.ld_l, gain.rows, G_.data(), ld_, n_);
   kernels::symmetric_downdate(minus_psi_.data(), ld_, n_, G_.data(), ld_, gain.rows, all);
   kernels::add_scaled_rows(tau_.data(), G_.data(), ld_, gain.rows, gain.nu, n_);
   kernels::subtract_product(phi_.data(), ld_, n_, gain.W, gain.ld, G_.data(), ld_, gain.rows, all);

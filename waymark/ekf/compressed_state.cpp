@@ -79,21 +79,39 @@ void CompressedState::join() {
 }
 
 bool CompressedState::update(std::span<const Sighting> sightings) {
+  if (!propose(sightings)) return false;
+  accept();
+  return true;
+}
+
+bool CompressedState::propose(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
+  if (!std::exchange(proposed_, true)) count(sightings);
   bring_in(sightings);
   join();
-  if (compressing_) since_.project(local_sightings_, active_);
-  const bool done = active_.update(local_sightings_);
-  if (compressing_ && done && !sightings.empty()) since_.absorb(active_.gain());
+  proposed_ = active_.propose(local_sightings_);
+  return proposed_;
+}
+
+void CompressedState::accept() {
+  proposed_ = false;
+  if (!local_sightings_.empty()) {
+    if (compressing_) since_.project(local_sightings_, active_);
+    active_.accept();
+    if (compressing_) since_.absorb(active_.gain());
+  }
   work();
-  return done;
+}
+
+/// What is proposed again counts once.
+void CompressedState::count(std::span<const Sighting> sightings) {
+  ++now_;
+  seen_this_step_ += static_cast<int>(sightings.size());
+  most_seen_ = std::max(most_seen_, seen_this_step_);
 }
 
 /// All that is sighted enters the region, and the sightings get its indices.
 void CompressedState::bring_in(std::span<const Sighting> sightings) {
-  ++now_;
-  seen_this_step_ += static_cast<int>(sightings.size());
-  most_seen_ = std::max(most_seen_, seen_this_step_);
   for (const Sighting& sighting : sightings)
     if (is_active(sighting.landmark)) seen_[static_cast<std::size_t>(local_of(sighting.landmark))] = now_;
   for (const Sighting& sighting : sightings)
@@ -272,6 +290,12 @@ Sighting CompressedState::in_active(const Sighting& sighting) const {
   Sighting local = sighting;
   local.landmark = local_of(sighting.landmark);
   return local;
+}
+
+Sighting CompressedState::moved_back(const Sighting& sighting) const {
+  Sighting back = active_.moved_back(in_active(sighting));
+  back.landmark = sighting.landmark;
+  return back;
 }
 
 Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {

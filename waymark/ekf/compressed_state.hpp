@@ -15,7 +15,7 @@ namespace waymark::ekf {
 /// How a large map is kept out of the way.
 struct Compression {
   int region = 64;  ///< landmarks in a region; more where so many are seen at once
-  int onset = 192;  ///< size of the map from which on it is done; the capacity of the map: never
+  int onset = 384;  ///< size of the map from which on it is done; the capacity of the map: never
 };
 
 /// The state of the whole map at the cost of a local one: the compressed filter of Guivant and Nebot (2001).
@@ -53,10 +53,25 @@ class CompressedState {
   void set_pose(const PoseEstimate& pose) { active_.set_pose(pose); }
   void predict(const Motion& motion);
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }
+  [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const { return active_.expected(terms); }
   void relax_errors(int pair, double rho);
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
   [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
+  [[nodiscard]] bool propose(std::span<const Sighting> sightings);
+  void accept();
+  /// Of sighted landmarks only.
+  [[nodiscard]] Pose2 proposed_pose() const { return active_.proposed_pose(); }
+  [[nodiscard]] Eigen::Vector3d proposed_landmark(int index) const {
+    return active_.proposed_landmark(local_of(index));
+  }
+  [[nodiscard]] Eigen::Vector2d proposed_expected(const ErrorTerms& terms) const {
+    return active_.proposed_expected(terms);
+  }
+  [[nodiscard]] Eigen::Vector2d explained(const Sighting& sighting) const {
+    return active_.explained(in_active(sighting));
+  }
+  [[nodiscard]] Sighting moved_back(const Sighting& sighting) const;
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
           const ErrorTerms& errors = {});
   void remove(int index);
@@ -102,6 +117,7 @@ class CompressedState {
   void leave(int local);
   [[nodiscard]] int take_slot();
   void join();
+  void count(std::span<const Sighting> sightings);
   void bring_in(std::span<const Sighting> sightings);
   void work();
 
@@ -127,6 +143,7 @@ class CompressedState {
   int room_ = 0;               // when the region was opened
   double closing_work_ = 0.0;  // flop, then
 
+  bool proposed_ = false;
   std::vector<Sighting> local_sightings_;
   // Of the landmark recalled last, n_a x dimension: its columns when the region was opened, -psi times them,
   // and now.

@@ -17,6 +17,12 @@ constexpr int kMostGatedInARow = 5;
 constexpr int kMostDoublings = 8;
 const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 
+// What the innovations after an update may differ from what was linearly expected of them, squared and in
+// units of the noise: a fifth of its standard deviation.
+constexpr double kNegligible = 0.04;
+constexpr double kStudentDof = 4.0;
+constexpr int kStudentIterations = 3;
+
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
   const auto* z = std::get_if<RangeBearing>(&observation.value);
@@ -45,6 +51,11 @@ void describe(Schema& schema, EkfOptions& options) {
       "ekf.evict", options.evict, {"information", "article", "none"},
       "which landmark leaves a full map: the one that told least about the pose, the one of largest I - K H "
       "as in the article, or none, so that new ones are refused");
+  schema.integer("ekf.iterations", options.iterations, {0, 20},
+                 "how often an update may be linearised anew where it leaves the linear; 0: never");
+  schema.choice(
+      "ekf.likelihood", options.likelihood, {"gaussian", "student"},
+      "student: heavy tails, for outliers that no gate finds; takes up to 3 iterations in any case");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
                 "whether a large map is updated region by region, at the cost of a small one; auto: once it "
                 "is large enough to gain");
@@ -61,13 +72,14 @@ ekf::Compression compression(const EkfOptions& options) {
     case Compress::kAuto:
       break;
   }
-  return {options.region, 3 * options.region};
+  return {options.region, 6 * options.region};
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
                  const SensorErrors& errors)
     : errors_(errors),
       state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
+      options_(options),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
       index_(static_cast<std::size_t>(options.capacity)),
@@ -75,6 +87,9 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
   removed_.reserve(static_cast<std::size_t>(options.capacity));
   sightings_.reserve(ekf::CompressedState::kMaxSightings);
+  noises_.reserve(ekf::CompressedState::kMaxSightings);
+  refined_.reserve(ekf::CompressedState::kMaxSightings);
+  seen_.reserve(ekf::CompressedState::kMaxSightings);
   errors_.start(state_);
 }
 
@@ -190,47 +205,113 @@ void EkfSlam::widen(std::span<const Observation> observations) {
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.
 std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const Observation& observation) const {
-  const auto& z = std::get<RangeBearing>(observation.value);
-  const Eigen::Vector2d p = state_.landmark(landmark).head<2>();
-  const auto here = RangeBearingModel::linearize(state_.pose().T_world_robot, T_robot_sensor_, p);
-  const auto jacobians = RangeBearingModel::linearize(state_.linearization_pose(), T_robot_sensor_,
-                                                      state_.linearization_landmark(landmark).head<2>());
-  if (!(std::min(here.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
-  const ekf::SightingError error = errors_.of(state_, *observation.id, here.predicted[0]);
+  const View here{state_.pose().T_world_robot, state_.landmark(landmark)};
+  const View at{state_.linearization_pose(), state_.linearization_landmark(landmark)};
+  auto sighting = sight(std::get<RangeBearing>(observation.value), here, at);
+  if (!sighting) return std::nullopt;
+  const double range_m = (here.p_world.head<2>() - here.T_world_robot.position()).norm();
+  const ekf::SightingError error = errors_.of(*observation.id, range_m);
+  sighting->landmark = landmark;
+  sighting->errors = error.terms;
+  sighting->nu -= state_.expected(error.terms);
+  sighting->R = *observation.covariance + error.unmodelled;
+  return sighting;
+}
+
+/// The same where the update would go.
+std::optional<ekf::Sighting> EkfSlam::linearize_at_proposal(const ekf::Sighting& before,
+                                                            const Observation& observation) const {
+  const View there{state_.proposed_pose(), state_.proposed_landmark(before.landmark)};
+  auto sighting = sight(std::get<RangeBearing>(observation.value), there, there);
+  if (!sighting) return std::nullopt;
+  sighting->landmark = before.landmark;
+  sighting->errors = before.errors;
+  sighting->nu -= state_.proposed_expected(before.errors);
+  sighting->R = before.R;
+  return sighting;
+}
+
+/// z - h and the Jacobians of h; nothing where a landmark is believed to be at the sensor itself.
+std::optional<ekf::Sighting> EkfSlam::sight(const RangeBearing& z, const View& here, const View& at) const {
+  const auto expected =
+      RangeBearingModel::linearize(here.T_world_robot, T_robot_sensor_, here.p_world.head<2>());
+  const auto jacobians =
+      RangeBearingModel::linearize(at.T_world_robot, T_robot_sensor_, at.p_world.head<2>());
+  if (!(std::min(expected.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
   ekf::Sighting sighting;
-  sighting.landmark = landmark;
-  sighting.nu = RangeBearingModel::innovation(z, here.predicted + error.expected);
+  sighting.nu = RangeBearingModel::innovation(z, expected.predicted);
   sighting.H_pose = jacobians.H_pose;
   sighting.H_landmark.leftCols<2>() = jacobians.H_landmark;
-  sighting.R = *observation.covariance + error.unmodelled;
-  sighting.errors = error.terms;
   return sighting;
 }
 
 /// In blocks of at most kMaxSightings; a later block is linearised at what the earlier ones found.
 void EkfSlam::update(std::span<const Observation> observations) {
-  std::size_t next = 0;
-  while (next < observations.size()) {
-    const std::size_t first = next;
+  for (std::size_t next = 0; next < observations.size();) {
     sightings_.clear();
-    for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next) {
-      if (innovations_[next].outcome != Outcome::kMatched) continue;
-      const int landmark = *index_.find(innovations_[next].landmark);
-      const auto sighting = linearize(landmark, observations[next]);
-      if (sighting)
-        sightings_.push_back(*sighting);
-      else
-        innovations_[next].outcome = Outcome::kUnusable;
-    }
-    const bool done = state_.update(sightings_);
-    for (std::size_t i = first; i < next; ++i) {
-      if (innovations_[i].outcome != Outcome::kMatched) continue;
+    noises_.clear();
+    seen_.clear();
+    for (; next < observations.size() && sightings_.size() < ekf::CompressedState::kMaxSightings; ++next)
+      if (innovations_[next].outcome == Outcome::kMatched) collect(next, observations[next]);
+    const bool done = !sightings_.empty() && state_.propose(sightings_) && refine(observations);
+    if (done) state_.accept();
+    for (const std::size_t i : seen_) {
       if (done)
         ++landmarks_[static_cast<std::size_t>(*index_.find(innovations_[i].landmark))].observations;
       else
         innovations_[i].outcome = Outcome::kUnusable;
     }
   }
+}
+
+void EkfSlam::collect(std::size_t index, const Observation& observation) {
+  const auto sighting = linearize(*index_.find(innovations_[index].landmark), observation);
+  if (!sighting) {
+    innovations_[index].outcome = Outcome::kUnusable;
+    return;
+  }
+  sightings_.push_back(*sighting);
+  noises_.push_back(sighting->R);
+  seen_.push_back(index);
+}
+
+/// Linearises the block anew at what is proposed until that no longer matters: the iterated filter (Bell and
+/// Cathey 1993), and with heavy tails its reweighted form. First estimates stay what they are. False if an
+/// innovation covariance is not positive definite.
+bool EkfSlam::refine(std::span<const Observation> observations) {
+  if (options_.consistency == ekf::Consistency::kFej) return true;
+  const bool reweights = options_.likelihood == ekf::Likelihood::kStudent;
+  const int most = reweights ? std::max(options_.iterations, kStudentIterations) : options_.iterations;
+  for (int i = 0; i < most && relinearize(observations); ++i)
+    if (!state_.propose(sightings_)) return false;
+  return true;
+}
+
+/// False, and nothing changed, if the proposal is as good as linear, or leads to where nothing can be seen.
+bool EkfSlam::relinearize(std::span<const Observation> observations) {
+  refined_.clear();
+  double change = 0.0;
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
+    const ekf::Sighting& before = sightings_[k];
+    auto there = linearize_at_proposal(before, observations[seen_[k]]);
+    if (!there) return false;
+    const Eigen::Vector2d bent = there->nu - (before.nu - state_.explained(before));
+    const double weight = heaviness(*there, noises_[k]);
+    there->R = weight * noises_[k];
+    change = std::max({change, bent.dot(noises_[k].llt().solve(bent)),
+                       std::abs(std::log(there->R(0, 0) / before.R(0, 0)))});
+    refined_.push_back(*there);
+  }
+  if (change < kNegligible) return false;
+  for (std::size_t k = 0; k < seen_.size(); ++k) sightings_[k] = state_.moved_back(refined_[k]);
+  return true;
+}
+
+/// By how much a Student-t likelihood widens the noise R of a sighting of which this residual is left (Lange,
+/// Little, Taylor 1989).
+double EkfSlam::heaviness(const ekf::Sighting& left, const Eigen::Matrix2d& R) const {
+  if (options_.likelihood == ekf::Likelihood::kGaussian) return 1.0;
+  return (kStudentDof + left.nu.dot(R.llt().solve(left.nu))) / (kStudentDof + 2.0);
 }
 
 /// Whether there is room for one more landmark, if need be by removing one.
@@ -258,10 +339,11 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
     return;
   }
   const auto& z = std::get<RangeBearing>(observation.value);
-  ekf::SightingError error = errors_.of(state_, *observation.id, z.range_m);
+  ekf::SightingError error = errors_.of(*observation.id, z.range_m);
+  const Eigen::Vector2d expected_error = state_.expected(error.terms);
   const auto inverse = RangeBearingModel::locate(
       state_.pose().T_world_robot, T_robot_sensor_,
-      {z.range_m - error.expected[0], wrap_angle(z.bearing_rad - error.expected[1])});
+      {z.range_m - expected_error[0], wrap_angle(z.bearing_rad - expected_error[1])});
   const Eigen::Vector3d position(inverse.p_world.x(), inverse.p_world.y(), 0.0);
   Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
   G_pose.topRows<2>() = inverse.G_pose;

@@ -13,6 +13,16 @@
 
 namespace waymark {
 
+namespace ekf {
+
+/// How wild a sighting may be that was not gated.
+enum class Likelihood {
+  kGaussian,
+  kStudent  ///< heavy tails: the larger what is left of an innovation, the less the sighting counts
+};
+
+}  // namespace ekf
+
 /// Whether the map outside of the robot's region is left alone for the time being.
 enum class Compress { kAuto, kAlways, kNever };
 
@@ -21,10 +31,12 @@ struct EkfOptions {
   int capacity = 1000;
   ekf::Eviction evict = ekf::Eviction::kInformation;
   Compress compressed = Compress::kAuto;
+  int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
+  ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };
 
-/// With kAuto a map is compressed when it is three times a region: below that it costs more than it saves.
+/// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
 [[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
 void describe(Schema& schema, EkfOptions& options);
@@ -54,6 +66,11 @@ class EkfSlam final : public Filter {
     int observations = 0;
   };
 
+  struct View {
+    Pose2 T_world_robot;
+    Eigen::Vector3d p_world;
+  };
+
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
@@ -62,6 +79,14 @@ class EkfSlam final : public Filter {
   void widen(std::span<const Observation> observations);
   /// Nothing where the landmark is believed to be at the sensor itself.
   [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
+  [[nodiscard]] std::optional<ekf::Sighting> linearize_at_proposal(const ekf::Sighting& before,
+                                                                   const Observation& observation) const;
+  [[nodiscard]] std::optional<ekf::Sighting> sight(const RangeBearing& z, const View& here,
+                                                   const View& at) const;
+  void collect(std::size_t index, const Observation& observation);
+  [[nodiscard]] bool refine(std::span<const Observation> observations);
+  [[nodiscard]] bool relinearize(std::span<const Observation> observations);
+  [[nodiscard]] double heaviness(const ekf::Sighting& left, const Eigen::Matrix2d& R) const;
   void update(std::span<const Observation> observations);
   [[nodiscard]] bool make_room();
   void remove(int landmark);
@@ -70,6 +95,7 @@ class EkfSlam final : public Filter {
 
   ekf::LastingErrors errors_;
   ekf::CompressedState state_;
+  EkfOptions options_;
   Gate gate_;
   Pose2 T_robot_sensor_;
   IdIndex index_;
@@ -79,6 +105,9 @@ class EkfSlam final : public Filter {
   int slips_ = 0;
   std::vector<Innovation> innovations_;   // one per observation of the last correct()
   std::vector<ekf::Sighting> sightings_;  // of one block of the update
+  std::vector<Eigen::Matrix2d> noises_;   // their noise without heavy tails
+  std::vector<ekf::Sighting> refined_;    // the same, linearised anew
+  std::vector<std::size_t> seen_;         // their observations
   std::vector<LandmarkId> removed_;       // by the last correct()
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};

@@ -46,12 +46,11 @@ void LastingErrors::sight(CompressedState& state, LandmarkId landmark) {
   loan = {landmark, way_m_, scan_};
 }
 
-SightingError LastingErrors::of(const CompressedState& state, LandmarkId landmark, double range_m) const {
+SightingError LastingErrors::of(LandmarkId landmark, double range_m) const {
   SightingError error;
   const auto take = [&](std::size_t term, int pair, const Eigen::Vector2d& sigma) {
     error.terms[term].pair = pair;
     error.terms[term].J.topRows<2>() = sigma.asDiagonal();
-    error.expected += sigma.cwiseProduct(state.errors(pair));
   };
   if (first_loan_ > 0)
     take(0, 0, deviations(sensor_.shared_range_sigma_ratio, sensor_.shared_bearing_sigma_deg, range_m));

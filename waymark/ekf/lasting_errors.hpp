@@ -13,7 +13,6 @@ namespace waymark::ekf {
 /// What lasting errors do to one sighting z = h + e + v: e = sum of J times the pairs of the state.
 struct SightingError {
   ErrorTerms terms = {};
-  Eigen::Vector2d expected = Eigen::Vector2d::Zero();    ///< e as the state believes it
   Eigen::Matrix2d unmodelled = Eigen::Matrix2d::Zero();  ///< covariance of what no pair stands for
 };
 
@@ -39,7 +38,7 @@ class LastingErrors {
   /// A landmark is about to be sighted, for the first time in this scan: its pair drifts as far as it has to.
   void sight(CompressedState& state, LandmarkId landmark);
   /// What is in a sighting of a landmark after sight(). Range-bearing: metres and radians.
-  [[nodiscard]] SightingError of(const CompressedState& state, LandmarkId landmark, double range_m) const;
+  [[nodiscard]] SightingError of(LandmarkId landmark, double range_m) const;
 
  private:
   struct Loan {

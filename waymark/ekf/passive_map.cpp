@@ -32,14 +32,14 @@ PassiveMap::PassiveMap(int dimension, std::size_t head, int slots, int members, 
       first_(ld_),
       region_ld_(kernels::padded_stride(head + static_cast<std::size_t>(dimension * members))),
       inside_(ld_),
-      minus_phi_T_(region_ld_ * region_ld_),
+      minus_phi_transposed_(region_ld_ * region_ld_),
       minus_psi_(region_ld_ * region_ld_),
       tau_(region_ld_),
       heading_(region_ld_),
       settled_(ld_ / kColumns + 1),
       B_(region_ld_ * ld_),
-      psi_B_(region_ld_ * ld_),
-      phi_B_(region_ld_ * kColumns),
+      psi_b_(region_ld_ * ld_),
+      phi_b_(region_ld_ * kColumns),
       d_(ld_),
       e_(ld_),
       background_(own_thread && slots > 0) {
@@ -57,7 +57,7 @@ void PassiveMap::clear(int slot) {
   slots_ = std::max(slots_, slot + 1);
   for (std::size_t at = offset(slot); at < offset(slot + 1); ++at) {
     for (std::size_t j = 0; j < size(); ++j) P(at, j) = 0.0;
-    for (std::size_t k = 0; k < rows_.size(); ++k) B_[k * ld_ + at] = psi_B_[k * ld_ + at] = 0.0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) B_[k * ld_ + at] = psi_b_[k * ld_ + at] = 0.0;
     x_[at] = d_[at] = e_[at] = 0.0;
   }
 }
@@ -91,7 +91,7 @@ void PassiveMap::take_over(const Accumulators& since, const State& region) {
   const std::size_t na = since.size();
   for (std::size_t i = 0; i < na; ++i) {
     for (std::size_t j = 0; j < na; ++j)
-      minus_phi_T_[j * region_ld_ + i] = -since.phi()[i * since.stride() + j];
+      minus_phi_transposed_[j * region_ld_ + i] = -since.phi()[i * since.stride() + j];
     for (std::size_t j = i; j < na; ++j)
       minus_psi_[i * region_ld_ + j] = minus_psi_[j * region_ld_ + i] =
           since.minus_psi()[i * since.stride() + j];
@@ -133,7 +133,7 @@ double PassiveMap::remaining() {
 void PassiveMap::do_next() {
   if (next_block_ * kColumns < n_) return settle(next_block_++);
   const std::size_t end = std::min(next_row_ + kRows, n_);
-  kernels::symmetric_product_update(P_.data(), ld_, n_, B_.data(), psi_B_.data(), ld_, rows_.size(),
+  kernels::symmetric_product_update(P_.data(), ld_, n_, B_.data(), psi_b_.data(), ld_, rows_.size(),
                                     shear_ ? d_.data() : nullptr, shear_ ? e_.data() : nullptr,
                                     {next_row_, end});
   next_row_ = end;
@@ -171,14 +171,14 @@ void PassiveMap::settle(std::size_t block) {
   const std::size_t na = rows_.size();
   for (std::size_t k = 0; k < na; ++k) {
     for (std::size_t j = begin; j < end; ++j) B_[k * ld_ + j] = inside_[j] ? 0.0 : P(rows_[k], j);
-    std::fill(&psi_B_[k * ld_ + begin], &psi_B_[k * ld_] + end, 0.0);
-    std::fill_n(&phi_B_[k * kColumns], kColumns, 0.0);
+    std::fill(&psi_b_[k * ld_ + begin], &psi_b_[k * ld_] + end, 0.0);
+    std::fill_n(&phi_b_[k * kColumns], kColumns, 0.0);
   }
   const double* B = &B_[begin];
-  kernels::subtract_product(&psi_B_[begin], ld_, end - begin, minus_psi_.data(), region_ld_, B, ld_, na,
+  kernels::subtract_product(&psi_b_[begin], ld_, end - begin, minus_psi_.data(), region_ld_, B, ld_, na,
                             {0, na});
-  kernels::subtract_product(phi_B_.data(), kColumns, end - begin, minus_phi_T_.data(), region_ld_, B, ld_, na,
-                            {0, na});
+  kernels::subtract_product(phi_b_.data(), kColumns, end - begin, minus_phi_transposed_.data(), region_ld_, B,
+                            ld_, na, {0, na});
   move_points(begin, end);
   write_back(begin, end);
 }
@@ -187,7 +187,7 @@ void PassiveMap::settle(std::size_t block) {
 void PassiveMap::move_points(std::size_t begin, std::size_t end) {
   alignas(kernels::kAlignment) std::array<double, kColumns> moved{};
   kernels::add_scaled_rows(moved.data(), &B_[begin], ld_, rows_.size(), tau_.data(), end - begin);
-  const std::size_t stride = static_cast<std::size_t>(dimension_);
+  const auto stride = static_cast<std::size_t>(dimension_);
   const Eigen::Matrix2d V = turn_jacobian(turn_);
   for (std::size_t j = begin; shear_ && j < end; j += stride) {
     Eigen::Map<Eigen::Vector2d> ground(&moved[j - begin]);
@@ -198,7 +198,7 @@ void PassiveMap::move_points(std::size_t begin, std::size_t end) {
   const double half_c_theta = 0.5 * heading_[2];
   for (std::size_t j = begin; j < end; ++j) {
     x_[j] += moved[j - begin];
-    e_[j] = inside_[j] ? 0.0 : phi_B_[2 * kColumns + j - begin] + half_c_theta * d_[j];
+    e_[j] = inside_[j] ? 0.0 : phi_b_[2 * kColumns + j - begin] + half_c_theta * d_[j];
   }
 }
 
@@ -206,7 +206,7 @@ void PassiveMap::write_back(std::size_t begin, std::size_t end) {
   for (std::size_t k = 0; k < rows_.size(); ++k)
     for (std::size_t j = begin; j < end; ++j)
       if (!inside_[j])
-        P(rows_[k], j) = phi_B_[k * kColumns + j - begin] + (shear_ ? heading_[k] * d_[j] : 0.0);
+        P(rows_[k], j) = phi_b_[k * kColumns + j - begin] + (shear_ ? heading_[k] * d_[j] : 0.0);
 }
 
 /// P(i, j) as it will be when the work is done; both columns are settled.
@@ -214,7 +214,7 @@ double PassiveMap::present(std::size_t i, std::size_t j) {
   const auto [row, column] = std::minmax(i, j);
   double p = P(row, column);
   if (!working_ || row < next_row_ || column >= n_ || inside_[row] || inside_[column]) return p;
-  for (std::size_t k = 0; k < rows_.size(); ++k) p -= B_[k * ld_ + row] * psi_B_[k * ld_ + column];
+  for (std::size_t k = 0; k < rows_.size(); ++k) p -= B_[k * ld_ + row] * psi_b_[k * ld_ + column];
   return shear_ ? p + d_[row] * e_[column] + e_[row] * d_[column] : p;
 }
 

@@ -102,7 +102,7 @@ class PassiveMap {
   std::size_t region_ld_;
   std::vector<std::size_t> rows_;  // its rows in P
   std::vector<char> inside_;       // by row of P: is one of them
-  Buffer minus_phi_T_;
+  Buffer minus_phi_transposed_;
   Buffer minus_psi_;
   Buffer tau_;
   Buffer heading_;  // P_a,theta
@@ -113,8 +113,8 @@ class PassiveMap {
   std::size_t next_block_ = 0;
   std::size_t next_row_ = 0;
   Buffer B_;  // region x n; zero in the region's own columns
-  Buffer psi_B_;
-  Buffer phi_B_;                    // of one block
+  Buffer psi_b_;
+  Buffer phi_b_;                    // of one block
   Buffer d_, e_;                    // shear of the landmarks outside: P += d e^T + e d^T
   std::vector<std::size_t> asked_;  // scratch of columns()
 

@@ -66,6 +66,18 @@ Eigen::Vector2d State::errors(int pair) const {
   return {x_[first], x_[first + 1]};
 }
 
+Eigen::Vector2d State::error_part(const ErrorTerms& terms, const Buffer& values) {
+  Eigen::Vector2d part = Eigen::Vector2d::Zero();
+  for (const ErrorTerm& term : terms) {
+    if (!term.takes_part()) continue;
+    const double* e = &values[error_offset(term.pair)];
+    part += term.J.topRows<2>() * Eigen::Vector2d(e[0], e[1]);
+  }
+  return part;
+}
+
+Eigen::Vector2d State::expected(const ErrorTerms& terms) const { return error_part(terms, x_); }
+
 void State::relax_errors(int pair, double rho) {
   const std::size_t first = error_offset(pair);
   for (std::size_t row = first; row < first + 2; ++row) {
@@ -137,7 +149,8 @@ Touched State::touched(const Sighting& sighting, int rows) const {
   Touched t(sighting.H_pose.topRows(rows), sighting.errors, dimension_);
   t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(rows, dimension_);
   for (int k = 0; k < dimension_; ++k)
-    t.rows[static_cast<std::size_t>(t.head + k)] = offset(sighting.landmark) + static_cast<std::size_t>(k);
+    t.rows[static_cast<std::size_t>(t.head) + static_cast<std::size_t>(k)] =
+        offset(sighting.landmark) + static_cast<std::size_t>(k);
   return t;
 }
 
@@ -162,6 +175,12 @@ Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) co
 }
 
 bool State::update(std::span<const Sighting> sightings) {
+  if (!propose(sightings)) return false;
+  if (!sightings.empty()) accept();
+  return true;
+}
+
+bool State::propose(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (sightings.empty()) return true;
   join_robot_rows();
@@ -171,11 +190,54 @@ bool State::update(std::span<const Sighting> sightings) {
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
   std::fill_n(dx_.data(), size(), 0.0);
   kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), size());
-  if (consistency_ == Consistency::kInvariant)
-    apply_invariantly(rows);
-  else
-    apply_additively(rows);
   return true;
+}
+
+void State::accept() {
+  if (consistency_ == Consistency::kInvariant)
+    apply_invariantly();
+  else
+    apply_additively();
+}
+
+/// By what the increments of ground points are turned: V(a) or nothing.
+Eigen::Matrix2d State::increment_jacobian() const {
+  return consistency_ == Consistency::kInvariant ? turn_jacobian(dx_[2]) : Eigen::Matrix2d::Identity();
+}
+
+Pose2 State::proposed_pose() const {
+  const Eigen::Vector2d moved = increment_jacobian() * Eigen::Vector2d(dx_[0], dx_[1]);
+  return {x_[0] + moved.x(), x_[1] + moved.y(), wrap_angle(x_[2] + dx_[2])};
+}
+
+Eigen::Vector3d State::proposed_landmark(int index) const {
+  Eigen::Vector3d dx = point(dx_, index);
+  dx.head<2>() = (increment_jacobian() * dx.head<2>()).eval();
+  return landmark(index) + dx;
+}
+
+Eigen::Vector2d State::proposed_expected(const ErrorTerms& terms) const {
+  return expected(terms) + error_part(terms, dx_);
+}
+
+Eigen::Vector2d State::explained(const Sighting& sighting) const {
+  return sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
+         sighting.H_landmark * point(dx_, sighting.landmark) + error_part(sighting.errors, dx_);
+}
+
+/// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
+/// turning everything unseen as it did before: what the step of Gauss and Newton would be with the exact
+/// derivative of the increments would, over and over, learn a heading that nobody saw.
+Sighting State::moved_back(const Sighting& sighting) const {
+  Sighting back = sighting;
+  if (consistency_ == Consistency::kInvariant) {
+    const Eigen::Matrix2d V = turn_jacobian(dx_[2]);
+    back.H_pose.col(2) +=
+        sighting.H_pose.leftCols<2>() * perpendicular(V * Eigen::Vector2d(dx_[0], dx_[1])) +
+        sighting.H_landmark.leftCols<2>() * perpendicular(V * point(dx_, sighting.landmark).head<2>());
+  }
+  back.nu += explained(back);
+  return back;
 }
 
 /// W <- C = H P from the touched rows of P; returns the number of measurement rows.
@@ -222,16 +284,16 @@ bool State::factorize(int rows) {
   return true;
 }
 
-void State::apply_additively(std::size_t rows) {
+void State::apply_additively() {
   for (std::size_t j = 0; j < size(); ++j) x_[j] += dx_[j];
   x_[2] = wrap_angle(x_[2]);
   if (consistency_ == Consistency::kStandard) linearization_pose_ = {x_[0], x_[1], x_[2]};
-  correct_covariance(rows, false);
+  correct_covariance(false);
 }
 
 /// The ordinary increment dq of every ground point becomes V(a) dq, with a the change of heading, and the
 /// covariance is sheared along d = J V(a) dq: the right-invariant filter in ordinary coordinates.
-void State::apply_invariantly(std::size_t rows) {
+void State::apply_invariantly() {
   const double turn = dx_[2];
   const Eigen::Matrix2d V = turn_jacobian(turn);
   std::fill_n(shear_d_.data(), size(), 0.0);
@@ -250,30 +312,30 @@ void State::apply_invariantly(std::size_t rows) {
     if (dimension_ == 3) x_[offset(i) + 2] += dx_[offset(i) + 2];
   }
   linearization_pose_ = {x_[0], x_[1], x_[2]};
-  correct_covariance(rows, true);
+  correct_covariance(true);
 }
 
 /// e = c + c_th/2 d, with c the heading column as the downdate will leave it.
-void State::prepare_shear(std::size_t rows) {
+void State::prepare_shear() {
   kernels::gather_rows(P_.data(), ld_, size(), 2, 1, shear_e_.data(), ld_);
   std::array<double, 2 * kMaxSightings> w_heading;
-  for (std::size_t k = 0; k < rows; ++k) w_heading[k] = -W_[k * ld_ + 2];
-  kernels::add_scaled_rows(shear_e_.data(), W_.data(), ld_, rows, w_heading.data(), size());
+  for (std::size_t k = 0; k < rows_; ++k) w_heading[k] = -W_[k * ld_ + 2];
+  kernels::add_scaled_rows(shear_e_.data(), W_.data(), ld_, rows_, w_heading.data(), size());
   const double half_c_theta = 0.5 * shear_e_[2];
   for (std::size_t j = 0; j < size(); ++j) shear_e_[j] += half_c_theta * shear_d_[j];
 }
 
-void State::correct_covariance(std::size_t rows, bool shear) {
-  if (shear) prepare_shear(rows);
+void State::correct_covariance(bool shear) {
+  if (shear) prepare_shear();
   const int bands = size() < kParallelSize ? 1 : team_.size();
   team_.run(bands, [&](int band) {
     const auto range =
         kernels::triangle_band(size(), static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
     if (shear)
-      kernels::symmetric_update(P_.data(), ld_, size(), W_.data(), ld_, rows, shear_d_.data(),
+      kernels::symmetric_update(P_.data(), ld_, size(), W_.data(), ld_, rows_, shear_d_.data(),
                                 shear_e_.data(), range);
     else
-      kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows, range);
+      kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows_, range);
   });
 }
 

@@ -39,7 +39,7 @@ struct Gain {
   std::size_t rows;  ///< D, measurement rows
   std::size_t ld;    ///< stride of W
   const double* W;   ///< D x n: L^-1 H P, so that P <- P - W^T W
-  std::size_t ld_L;  ///< stride of L
+  std::size_t ld_l;  ///< stride of L
   const double* L;   ///< D x D, lower: L L^T = H P H^T + R
   const double* nu;  ///< D: L^-1 nu, so that dx = W^T nu
   const double*
@@ -86,6 +86,8 @@ class State {
 
   /// Expected values of a pair of lasting errors; zero at first, and certainly so.
   [[nodiscard]] Eigen::Vector2d errors(int pair) const;
+  /// What the state expects of the errors in a sighting.
+  [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const;
   /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance.
   /// O(n).
   void relax_errors(int pair, double rho);
@@ -100,6 +102,20 @@ class State {
   /// W = L^-1 H P, L L^T = S): at most kMaxSightings. False, and nothing changed, if S is not positive
   /// definite.
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
+
+  /// The same in two steps, for those who want to see where the update would go and perhaps linearise there:
+  /// propose() finds it, accept() goes there. What is proposed is dropped by any other change.
+  [[nodiscard]] bool propose(std::span<const Sighting> sightings);
+  void accept();
+  [[nodiscard]] Pose2 proposed_pose() const;
+  [[nodiscard]] Eigen::Vector3d proposed_landmark(int index) const;
+  [[nodiscard]] Eigen::Vector2d proposed_expected(const ErrorTerms& terms) const;
+  /// H dx: what the proposal explains of a sighting's innovation, if all were linear.
+  [[nodiscard]] Eigen::Vector2d explained(const Sighting& sighting) const;
+  /// A sighting that was linearised at what is proposed (nu = z - h there, ordinary Jacobians), as one of the
+  /// state as it still is: the step of Gauss and Newton, nu + H dx, with H to the increments dx that the
+  /// state is moved by.
+  [[nodiscard]] Sighting moved_back(const Sighting& sighting) const;
 
   /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only
   /// their leading `dimension()` rows count; `errors` as dg/derrors. Returns its index. The map must not be
@@ -148,6 +164,7 @@ class State {
   using Buffer = AlignedArray<double>;
 
   [[nodiscard]] Eigen::Vector3d point(const Buffer& buffer, int index) const;
+  [[nodiscard]] static Eigen::Vector2d error_part(const ErrorTerms& terms, const Buffer& values);
   [[nodiscard]] double P(std::size_t i, std::size_t j) const {
     return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
   }
@@ -156,10 +173,11 @@ class State {
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
   [[nodiscard]] bool factorize(int rows);
-  void apply_additively(std::size_t rows);
-  void apply_invariantly(std::size_t rows);
-  void prepare_shear(std::size_t rows);
-  void correct_covariance(std::size_t rows, bool shear);
+  void apply_additively();
+  void apply_invariantly();
+  [[nodiscard]] Eigen::Matrix2d increment_jacobian() const;
+  void prepare_shear();
+  void correct_covariance(bool shear);
 
   int dimension_;
   int capacity_;
@@ -177,7 +195,7 @@ class State {
   Buffer shear_e_;  // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
   Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
-  std::size_t rows_ = 0;                                                      // D of the last update
+  std::size_t rows_ = 0;                                                      // D of the last proposal
 
   // P_rm is due Phi = [I, phi; 0, 1] with phi the displacement (turned by 90 degrees) since it was last
   // joined.

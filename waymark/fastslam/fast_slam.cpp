@@ -455,19 +455,23 @@ PoseEstimate FastSlam::pose() const {
 LandmarkEstimate FastSlam::landmark(int index) const {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d within = Eigen::Matrix2d::Zero();
   const Eigen::Vector2d near = store_.at(index, 0).mean;
   for (int i = 0; i < particles_.count(); ++i) {
     const fastslam::PointGaussian m = store_.at(index, i);
     const Eigen::Vector2d d = m.mean - near;
     const double w = particles_.weights()[static_cast<std::size_t>(i)];
     mean += w * d;
-    second += w * (m.covariance + d * d.transpose());
+    within += w * m.covariance;
+    second += w * d * d.transpose();
   }
   LandmarkEstimate estimate;
   estimate.id = landmarks_[static_cast<std::size_t>(index)].id;
   estimate.observations = landmarks_[static_cast<std::size_t>(index)].observations;
   estimate.position_m.head<2>() = near + mean;
-  estimate.covariance.topLeftCorner<2, 2>() = second - mean * mean.transpose();
+  estimate.covariance.topLeftCorner<2, 2>() = within + second - mean * mean.transpose();
+  estimate.within = Eigen::Matrix3d::Zero();
+  estimate.within->topLeftCorner<2, 2>() = within;
   return estimate;
 }
 

@@ -177,7 +177,7 @@ bool is_linear_ray(const LandmarkStore& store, int landmark, const Particles& pa
       const Numbers m = numbers(view.modes[0], i);
       const float L = linearity(m, view.anchor_x[i] + view.offset_x, view.anchor_y[i] + view.offset_y,
                                 sensors.x[i - begin], sensors.y[i - begin]);
-      if (!(m.b > 0.0F && L < kPointLinearity)) sum[0] += particles.weights()[i];
+      if (!(m.b > 0.0F) || !(L < kPointLinearity)) sum[0] += particles.weights()[i];
     }
     return sum;
   })[0];

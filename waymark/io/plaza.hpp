@@ -24,7 +24,7 @@ namespace waymark {
 /// distances; without `fix_known_errors` they stay positive, as published.
 [[nodiscard]] Result<std::unique_ptr<Source>> open_plaza(const MatFile& file, bool fix_known_errors);
 
-/// The same from the text files, which hold neither truth nor beacons: `run` is "folder/Plaza1".
-[[nodiscard]] Result<std::unique_ptr<Source>> open_plaza_text(const std::filesystem::path& run);
+/// The same from the text files, which hold neither truth nor beacons: `path` is "folder/Plaza1".
+[[nodiscard]] Result<std::unique_ptr<Source>> open_plaza_text(const std::filesystem::path& path);
 
 }  // namespace waymark

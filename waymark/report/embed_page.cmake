@@ -1,10 +1,10 @@
-# cmake -DPAGE=report.html -DOUT=report_page.cpp -P embed_page.cmake: a page as a string in C++.
+# cmake -DNAME=report -DPAGE=report.html -DOUT=report_page.cpp -P embed_page.cmake: a page as a string in C++.
 file(READ "${PAGE}" page)
-file(WRITE "${OUT}" "#include \"waymark/report/report_page.hpp\"
+file(WRITE "${OUT}" "#include \"waymark/report/pages.hpp\"
 
 namespace waymark {
 
-std::string_view report_page() { return R\"page(${page})page\"; }
+std::string_view ${NAME}_page() { return R\"page(${page})page\"; }
 
 }  // namespace waymark
 ")

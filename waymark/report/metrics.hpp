@@ -7,19 +7,9 @@
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/slam/recording.hpp"
+#include "waymark/slam/recording_figures.hpp"
 
 namespace waymark {
-
-/// Step times as thread CPU time from one correction to the next, us.
-struct StepTimes {
-  double mean_us = 0.0;
-  double p50_us = 0.0;
-  double p99_us = 0.0;
-  double p999_us = 0.0;
-  double max_us = 0.0;
-};
-
-[[nodiscard]] StepTimes step_times(const std::vector<Recording::TimedCost>& steps);
 
 /// One run in figures: what metrics.json holds.
 struct Metrics {
@@ -46,9 +36,6 @@ struct Metrics {
 /// `wall_s` covers what the caller says: the run alone, or reading and evaluation with it.
 [[nodiscard]] Metrics make_metrics(const std::string& input, const Config& config, const Recording& recording,
                                    const std::optional<eval::Evaluation>& truth);
-
-/// The mean NIS per degree of freedom of the observations that were used.
-[[nodiscard]] std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations);
 
 /// metrics.json, keys in a fixed order. What is not known is left out.
 [[nodiscard]] std::string to_json(const Metrics& metrics);

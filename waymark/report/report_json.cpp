@@ -6,6 +6,8 @@
 
 #include "waymark/report/decimate.hpp"
 #include "waymark/report/nis_histogram.hpp"
+#include "waymark/report/pages.hpp"
+#include "waymark/report/rounded.hpp"
 
 namespace waymark {
 namespace {
@@ -13,12 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;  // metrics stay in the order of metrics.json
 using Values = std::vector<double>;
 using Rows = std::vector<std::size_t>;
-
-double rounded(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return value;
-  const double scale = std::pow(10.0, 5.0 - std::floor(std::log10(std::abs(value))));
-  return std::isfinite(scale) ? std::round(value * scale) / scale : 0.0;
-}
 
 double rounded_stamp(double t_s) { return std::round(t_s * 1e4) / 1e4; }
 
@@ -165,20 +161,6 @@ Json to_json(const RunData& run) {
     json["alignment"] = {{"x_m", T.x_m}, {"y_m", T.y_m}, {"theta_rad", T.theta_rad}};
   }
   return json;
-}
-
-// `<` occurs in strings only. Unescaped, it could end the script element or begin a comment in it.
-std::string safe_in_script(const std::string& json) {
-  std::string safe;
-  safe.reserve(json.size() + 64);
-  for (const char c : json) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
 }
 
 }  // namespace

@@ -33,21 +33,9 @@ Result<void> write_maps(const RunResult& result, const std::filesystem::path& fo
 
 Result<RunResult> run_log(const std::string& input, const UserSettings& user, const TimeSpan& span,
                           const std::function<bool(double)>& keep_going) {
-  auto opened = open_input(input, user);
-  if (!opened) return opened.error();
-  auto recording = record(*opened->source, opened->config, span, keep_going);
-  if (!recording) return recording.error();
-  RunResult result{input, opened->config, opened->source->info(), std::move(*recording), {}, {}, {}};
-  std::vector<eval::TruthSample> samples;
-  for (const auto& [stamp, truth] : result.recording.truth) samples.push_back({stamp, truth});
-  result.truth = eval::TruthTrack(std::move(samples));
-  if (!result.truth.empty() || !result.log.landmarks.empty()) {
-    eval::EvaluateOptions options;
-    if (result.log.truth_sensor_m) options.associate.truth_sensor_m = *result.log.truth_sensor_m;
-    const auto map = result.recording.filter->snapshot().landmarks;
-    result.evaluation = eval::evaluate(result.recording.trajectory, map, result.truth, result.log.landmarks,
-                                       result.recording.dead_reckoning, options);
-  }
+  auto run = study::run_and_score(input, user, span, keep_going);
+  if (!run) return run.error();
+  RunResult result{*std::move(run), {}};
   result.metrics = make_metrics(input, result.config, result.recording, result.evaluation);
   return result;
 }

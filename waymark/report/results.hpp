@@ -2,29 +2,19 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "waymark/eval/evaluate.hpp"
 #include "waymark/report/metrics.hpp"
-#include "waymark/slam/config.hpp"
-#include "waymark/slam/recording.hpp"
+#include "waymark/study/scored_run.hpp"
 
 namespace waymark {
 
 /// One run with everything that is known about it.
-struct RunResult {
-  std::string input;
-  Config config;
-  LogInfo log;
-  Recording recording;
-  eval::TruthTrack truth;
-  std::optional<eval::Evaluation> evaluation;  ///< where the log has ground truth for path or map
+struct RunResult : study::ScoredRun {
   Metrics metrics;
 };
 
-/// Opens an input, runs the filter over it and scores the result. A log that breaks off half-way gives what
-/// was computed up to there, with `recording.error` set.
+/// study::run_and_score() with its metrics.
 [[nodiscard]] Result<RunResult> run_log(const std::string& input, const UserSettings& user,
                                         const TimeSpan& span = {},
                                         const std::function<bool(double)>& keep_going = {});

@@ -94,6 +94,8 @@ Result<void> validate(const SimOptions& options);
 /// `study` serves every comparison: two laps of the 6 m square at 0.3 m/s, 24 landmarks 1 to 3 m off the
 /// path, a sensor of 0.336 to 5.36 m and 49.56 degrees at 15 frames/s with 0.05 m and 1.5 degrees of noise,
 /// and wheels by which dead reckoning ends a lap 1.6 m from the truth (median over seeds).
+///
+/// `report-square` and `report-l-shape` are the worlds of the FastSLAM report on a Pioneer 3-DX.
 Result<SimOptions> scenario(std::string_view name);
 [[nodiscard]] const std::vector<std::string>& scenario_names();
 

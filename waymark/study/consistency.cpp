@@ -30,7 +30,7 @@ class World {
       const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
       const double radius_m = kRadius_m + side * random_.uniform(kLeastOffset_m, kLargestOffset_m);
       const double angle_rad = random_.uniform(-kPi, kPi);
-      landmarks_.push_back(kCentre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+      landmarks_.emplace_back(kCentre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
     }
   }
 
@@ -116,6 +116,13 @@ ConsistencyResult study_consistency(ekf::Consistency mode, const ConsistencyOpti
       std::ranges::count_if(result.nees, [&](double x) { return x >= result.low && x <= result.high; });
   result.part_inside = static_cast<double>(inside) / steps;
   return result;
+}
+
+ConsistencyComparison compare_modes(const ConsistencyOptions& options, int threads) {
+  return {options,
+          {{"invariant", study_consistency(ekf::Consistency::kInvariant, options, threads)},
+           {"fej", study_consistency(ekf::Consistency::kFej, options, threads)},
+           {"standard", study_consistency(ekf::Consistency::kStandard, options, threads)}}};
 }
 
 }  // namespace waymark::study

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "waymark/core/angle.hpp"
@@ -35,5 +36,17 @@ struct ConsistencyResult {
 /// depend on `threads`.
 [[nodiscard]] ConsistencyResult study_consistency(ekf::Consistency mode, const ConsistencyOptions& options,
                                                   int threads);
+
+/// All modes over the same worlds and noise.
+struct ConsistencyComparison {
+  struct Mode {
+    std::string name;  ///< as in the config: "invariant"
+    ConsistencyResult result;
+  };
+  ConsistencyOptions options;
+  std::vector<Mode> modes;
+};
+
+[[nodiscard]] ConsistencyComparison compare_modes(const ConsistencyOptions& options, int threads);
 
 }  // namespace waymark::study

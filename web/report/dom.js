@@ -19,6 +19,12 @@ export function panel(title, { note, tools = [], id } = {}, ...children) {
     ...children);
 }
 
+// A part of the page under its heading, where there is something to show.
+export function section(title, className, ...children) {
+  const present = children.flat().filter(Boolean);
+  return present.length ? h("section", { class: "group" }, h("h2", {}, title), h("div", { class: className }, present)) : null;
+}
+
 export function toggleButton(label, pressed, onchange, title) {
   const button = h("button", { type: "button", class: "chip", "aria-pressed": String(pressed), title }, label);
   button.addEventListener("click", () => {

@@ -1,7 +1,7 @@
 // The report page: reads the embedded data, shows one run at a time and all of them on the map.
 
 import { errorChart, innovationChart, innovationHistogram, stepChart, timeChart } from "./charts.js";
-import { choice, h } from "./dom.js";
+import { choice, h, section } from "./dom.js";
 import { MapPanel } from "./map.js";
 import { comparison, pageHeader, runSummary, tiles } from "./summary.js";
 import { blockTable, metricsTables, notesPanel, reproduce } from "./tables.js";
@@ -9,11 +9,6 @@ import { runColor } from "./theme.js";
 import { Timeline } from "./timeline.js";
 
 const filled = (series) => (series?.t?.length ?? 0) > 0;
-
-function section(title, className, ...children) {
-  const present = children.flat().filter(Boolean);
-  return present.length ? h("section", { class: "group" }, h("h2", {}, title), h("div", { class: className }, present)) : null;
-}
 
 // Distance from the truth of every run and of odometry alone, in one chart.
 function positionErrorChart(timeline, data, selected) {

@@ -16,6 +16,12 @@ struct BenchResult {
   std::string unit;
 };
 
+/// How much to measure.
+enum class BenchScope {
+  kFull,
+  kQuick,  ///< the same figures of smaller maps in fewer rounds: in a second, and rougher
+};
+
 /// Told the part of the work that is done.
 using BenchProgress = std::function<void(double fraction)>;
 

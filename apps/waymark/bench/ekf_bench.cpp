@@ -19,7 +19,6 @@ namespace waymark::app {
 namespace {
 
 constexpr int kSightings = 10;
-constexpr std::size_t kRounds = 7;
 
 /// One map size: as many steps per round as give a steady median in bearable time.
 struct Size {
@@ -31,6 +30,16 @@ struct Size {
 };
 constexpr std::array kSizes{Size{50, 200, true, false, false}, Size{200, 100, false, false, true},
                             Size{1000, 20, false, true, true}, Size{2000, 8, false, true, true}};
+constexpr std::array kQuickSizes{Size{50, 20, true, false, false}, Size{200, 10, false, true, true}};
+
+struct Plan {
+  std::span<const Size> sizes;
+  std::size_t rounds;
+};
+
+Plan plan_of(BenchScope scope) {
+  return scope == BenchScope::kQuick ? Plan{kQuickSizes, 3} : Plan{kSizes, 7};
+}
 
 Duration wall_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
@@ -107,20 +116,21 @@ void append_blocks(std::vector<BenchResult>& results, const nlohmann::ordered_js
 
 class SizeBench {
  public:
-  SizeBench(const Size& size, const Machine& machine)
+  SizeBench(const Size& size, std::size_t rounds, const Machine& machine)
       : size_(size),
+        rounds_(rounds),
         machine_(machine),
         run_(make_synthetic_run(size.landmarks, kSightings,
-                                static_cast<int>(kRounds * size.steps_per_round))) {}
+                                static_cast<int>(rounds * size.steps_per_round))) {}
 
   std::vector<BenchResult> measure(const BenchProgress& progress) {
     const auto invariant = start_filter(run_, ekf::Consistency::kInvariant);
     contend(invariant);
     const FunctionBlocks start = invariant->blocks();
-    for (std::size_t round = 0; round < kRounds; ++round) {
+    for (std::size_t round = 0; round < rounds_; ++round) {
       const auto steps = std::span(run_.steps).subspan(round * size_.steps_per_round, size_.steps_per_round);
       for (Contender& contender : contenders_) contender.run_round(steps);
-      progress(static_cast<double>(round + 1) / kRounds);
+      progress(static_cast<double>(round + 1) / static_cast<double>(rounds_));
     }
     std::vector<BenchResult> results;
     for (const Contender& contender : contenders_) results.push_back(contender.result());
@@ -163,6 +173,7 @@ class SizeBench {
   }
 
   Size size_;
+  std::size_t rounds_;
   const Machine& machine_;
   SyntheticRun run_;
   nlohmann::ordered_json params_{{"landmarks", size_.landmarks}, {"sightings", kSightings}};
@@ -171,11 +182,14 @@ class SizeBench {
 
 }  // namespace
 
-std::vector<BenchResult> bench_ekf(const Machine& machine, const BenchProgress& progress) {
+std::vector<BenchResult> bench_ekf(const Machine& machine, BenchScope scope, const BenchProgress& progress) {
+  const auto [sizes, rounds] = plan_of(scope);
   std::vector<BenchResult> results;
-  for (std::size_t i = 0; i < kSizes.size(); ++i) {
-    SizeBench bench(kSizes[i], machine);
-    const auto part = [&](double fraction) { progress((static_cast<double>(i) + fraction) / kSizes.size()); };
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    SizeBench bench(sizes[i], rounds, machine);
+    const auto part = [&, i, count = static_cast<double>(sizes.size())](double fraction) {
+      progress((static_cast<double>(i) + fraction) / count);
+    };
     for (auto& result : bench.measure(part)) results.push_back(std::move(result));
   }
   return results;

@@ -9,6 +9,7 @@ namespace waymark::app {
 
 /// EKF-SLAM steps by map size and mode, beside plain implementations of the same step run in turn with them
 /// and the time that the arithmetic alone needs on this machine.
-[[nodiscard]] std::vector<BenchResult> bench_ekf(const Machine& machine, const BenchProgress& progress);
+[[nodiscard]] std::vector<BenchResult> bench_ekf(const Machine& machine, BenchScope scope,
+                                                 const BenchProgress& progress);
 
 }  // namespace waymark::app

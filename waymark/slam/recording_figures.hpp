@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "waymark/slam/recording.hpp"
+
+namespace waymark {
+
+/// Step times as thread CPU time from one correction to the next, us.
+struct StepTimes {
+  double mean_us = 0.0;
+  double p50_us = 0.0;
+  double p99_us = 0.0;
+  double p999_us = 0.0;
+  double max_us = 0.0;
+};
+
+[[nodiscard]] StepTimes step_times(const std::vector<Recording::TimedCost>& steps);
+
+/// The mean NIS per degree of freedom of the observations that were used.
+[[nodiscard]] std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations);
+
+}  // namespace waymark
