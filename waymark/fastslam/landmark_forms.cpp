@@ -18,6 +18,9 @@ using kernels::SightingKind;
 
 // The sum of Gaussians on a ring is flat to 0.3 % when each is so wide in units of their spacing.
 constexpr double kRingOverlap = 0.6;
+// Gaussians of this part of their depth, in steps of (1 + it) / (1 - it), cover a ray evenly (Sola et al.
+// 2005).
+constexpr double kDepthSigma = 0.3;
 // No landmark is nearer than this to a sensor whose limits do not say.
 constexpr double kLeastDepth_m = 0.1;
 // Particles of so little weight together do not hinder a landmark from changing its form.
@@ -193,24 +196,34 @@ Numbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin
   return {mean.x(), mean.y(), Sigma(0, 0), Sigma(0, 1), Sigma(1, 1)};
 }
 
+/// From the nearest to the farthest that the sensor sees.
+FirstForm first_ray(const LandmarkSensor& sensor) {
+  constexpr double kRatio = (1.0 + kDepthSigma) / (1.0 - kDepthSigma);
+  const double nearest_m = std::max(sensor.min_range_m, kLeastDepth_m);
+  const double farthest_m = std::max(sensor.max_range_m, nearest_m);
+  const double steps = std::ceil(std::log(farthest_m / nearest_m) / std::log(kRatio));
+  const double modes = std::clamp(steps, 1.0, static_cast<double>(kernels::kMaxModes));
+  return {LandmarkForm::kRay,
+          static_cast<std::size_t>(modes),
+          {.depth = narrow(nearest_m / (1.0 - kDepthSigma)),
+           .depth_ratio = narrow(kRatio),
+           .depth_sigma = narrow(kDepthSigma)}};
+}
+
 }  // namespace
 
 FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor) {
   if (seen.kind == SightingKind::kRangeBearing) return {};
-  if (seen.kind == SightingKind::kBearing) {
-    const double nearest = 1.0 / std::max(sensor.min_range_m, kLeastDepth_m);
-    const double farthest = std::min(nearest, 1.0 / sensor.max_range_m);
-    const double sigma = 0.25 * (nearest - farthest);
-    return {LandmarkForm::kRay, 1, {narrow(0.5 * (nearest + farthest)), narrow(sigma * sigma), 0.0F, 0.0F}};
-  }
+  if (seen.kind == SightingKind::kBearing) return first_ray(sensor);
   const double view_rad = to_radians(std::clamp(sensor.field_of_view_deg, 1.0, 360.0));
   const double sigma_phi = std::sqrt(0.6 * std::sqrt(static_cast<double>(seen.R_rr)) / seen.range);
   const double wanted = std::ceil(kRingOverlap * view_rad / sigma_phi);
   const double modes = std::clamp(wanted, 1.0, static_cast<double>(kernels::kMaxModes));
   const double spacing = view_rad / modes;
-  return {LandmarkForm::kRing,
-          static_cast<std::size_t>(modes),
-          {0.0F, 0.0F, narrow(spacing), narrow(kRingOverlap * spacing * kRingOverlap * spacing)}};
+  return {
+      LandmarkForm::kRing,
+      static_cast<std::size_t>(modes),
+      {.phi_spacing = narrow(spacing), .phi_var = narrow(kRingOverlap * spacing * kRingOverlap * spacing)}};
 }
 
 void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,

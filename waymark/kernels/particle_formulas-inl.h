@@ -238,15 +238,13 @@ HWY_INLINE RingLook<T> look_across_ring(const SeenLandmark& z, const Sensor<T>& 
           ray};
 }
 
-/// log of the probability that a landmark in that direction lies in the field of view, when its bearing is
-/// only known to `sigma`: the normal distribution function as a logistic one.
+/// By how many standard deviations of its direction a landmark would lie outside the field of view.
 template <class T>
-HWY_INLINE T log_in_view(const SensorMount& mount, const Sensor<T>& from, const Ray<T>& ray, T sigma) {
+HWY_INLINE T deviations_outside_view(const SensorMount& mount, const Sensor<T>& from, const Ray<T>& ray, T sigma) {
   const T cx = from.c * T(mount.cos_yaw) - from.s * T(mount.sin_yaw);
   const T sx = from.s * T(mount.cos_yaw) + from.c * T(mount.sin_yaw);
   const T off_axis = angle_of(absolute(cx * ray.uy - sx * ray.ux), cx * ray.ux + sx * ray.uy);
-  const T outside = T(1.702F) * (off_axis - T(mount.half_view)) / sigma;
-  return where_less(outside, T(40.0F), -logarithm(T(1.0F) + exponential(outside)), -outside);
+  return (off_axis - T(mount.half_view)) / sigma;
 }
 
 template <class T>

@@ -18,8 +18,10 @@ namespace waymark::kernels::HWY_NAMESPACE {
 // Hypotheses below this part of the best one are dropped: log 1e-3.
 constexpr float kLogDrop = -6.9F;
 
-// How sharp the edges of a field of view are, besides what is unsure about the hypothesis: (2 deg)^2.
+// How sharp the edges of a field of view are, besides what is unsure about the hypothesis: (2 deg)^2; and how
+// far outside a hypothesis dies.
 constexpr float kViewEdgeVariance = 0.0012F;
+constexpr float kDeviationsOutside = 3.0F;
 
 constexpr double kTurn = 6.283185307179586;
 
@@ -273,6 +275,48 @@ HWY_INLINE void list_range(const Sighting& sighting, const Increment& increment,
   }
 }
 
+// What several hypotheses together say of the robot: one look of the moments of theirs.
+template <class T>
+struct Mixture {
+  T nu, Z, g_x, g_y, g_t;
+};
+
+template <class T, class Way>
+HWY_INLINE Mixture<T> look_at_modes(const Sighting& s, const Sensor<T>& from, std::size_t i) {
+  const T zero = T(0.0F);
+  Mixture<T> sum{zero, zero, zero, zero, zero};
+  T nu_nu = zero;
+  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
+    const LandmarkMode& mode = s.landmark.modes[k];
+    const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, i);
+    const Look1<T> look = Way::look(s, from, m, i);
+    const T log_weight = load<T>(mode.log_weight, i);
+    const T w = exponential(log_weight);
+    const auto add = [&](T& to, T x)
+                         HWY_ATTR { to = to + where_less(T(-20.0F), log_weight, w * x, T(0.0F)); };
+    add(sum.nu, look.nu);
+    add(nu_nu, look.nu * look.nu);
+    add(sum.Z, landmark_variance(look, m) + look.R);
+    add(sum.g_x, look.g_x);
+    add(sum.g_y, look.g_y);
+    add(sum.g_t, look.g_t);
+  }
+  sum.Z = sum.Z + larger(nu_nu - sum.nu * sum.nu, zero);
+  return sum;
+}
+
+template <class T, class Way>
+HWY_INLINE Conditioned<T> condition_by_modes(const Sighting& s, const Sensor<T>& from, const Pose<T>& before,
+                                             const Gaussian3<T>& d, std::size_t i, Way) {
+  const Mixture<T> m = look_at_modes<T, Way>(s, from, i);
+  return condition1(d, in_frame_of(before, m.g_x, m.g_y, m.g_t), m.nu, m.Z);
+}
+template <class T>
+HWY_INLINE Conditioned<T> condition_by_modes(const Sighting&, const Sensor<T>&, const Pose<T>&,
+                                             const Gaussian3<T>& d, std::size_t, AtPoint) {
+  return {d, T(0.0F)};  // points have one hypothesis
+}
+
 template <class T, class Way>
 HWY_INLINE void condition_range(const Sighting& sighting, const Increment& expected,
                                 const PoseColumns& before, double evidence,
@@ -283,7 +327,9 @@ HWY_INLINE void condition_range(const Sighting& sighting, const Increment& expec
     const Gaussian3<T> d = load_increment<T>(increments, i);
     const Sensor<T> from = sensor_of(moved(pose, d.x, d.y, d.t), s.mount);
     const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
-    const Conditioned<T> after = condition(Way::look(s, from, m, range.begin + i), from, pose, d, m);
+    const Conditioned<T> after = s.landmark.mode_count > 1
+                                     ? condition_by_modes(s, from, pose, d, range.begin + i, Way())
+                                     : condition(Way::look(s, from, m, range.begin + i), from, pose, d, m);
     store_increment(after.d, increments, i);
     add_scaled(after.log_likelihood, evidence, log_weight + i);
   }
@@ -308,31 +354,42 @@ HWY_INLINE void update_range(const Sighting& s, const PoseColumns& sensors, doub
   }
 }
 
-// Updates a hypothesis and returns its log weight before normalisation.
+// A hypothesis that the sensor could not have seen dies. It is the state that is out of view, not the
+// sighting that is unlikely: to count that at every sighting would be to count it again and again.
 template <class T>
+HWY_INLINE T log_possible(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m, std::size_t i,
+                          RangeOfRing) {
+  if (s.mount.half_view >= 3.14F) return T(0.0F);
+  const Ray<T> ray =
+      look_across_ring(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i)).ray;
+  const T across = m.b * ray.inverse_r;
+  const T sigma = square_root(m.aa * across * across + T(kViewEdgeVariance));
+  return where_less(T(kDeviationsOutside), deviations_outside_view(s.mount, from, ray, sigma), T(kDeadMode),
+                    T(0.0F));
+}
+template <class T, class Way>
+HWY_INLINE T log_possible(const Sighting&, const Sensor<T>&, const Gaussian2<T>&, std::size_t, Way) {
+  return T(0.0F);
+}
+
+// Updates a hypothesis and returns its log weight before normalisation.
+template <class T, class Way>
 HWY_INLINE T update_mode(const Sighting& s, const Sensor<T>& from, const LandmarkMode& mode, std::size_t i) {
   const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, i);
-  const RingLook<T> ring =
-      look_across_ring(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i));
-  const Updated<T> after = update1(ring.look, m);
-  store_gaussian(after.m, mode.gaussian, i);
-  T likelihood = after.log_likelihood;
-  if (s.mount.half_view < 3.14F) {
-    const T across = m.b * ring.ray.inverse_r;
-    const T sigma = square_root(m.aa * across * across + T(kViewEdgeVariance));
-    likelihood = likelihood + log_in_view(s.mount, from, ring.ray, sigma);
-  }
+  const Updated<T> after = update(Way::look(s, from, m, i), m);
+  store_gaussian(possible(s, after.m, Way()), mode.gaussian, i);
   const T before = load<T>(mode.log_weight, i);
-  return where_less(T(0.5F * kDeadMode), before, before + likelihood, T(kDeadMode));
+  const T weight = before + after.log_likelihood + log_possible(s, from, m, i, Way());
+  return where_less(T(0.5F * kDeadMode), before, weight, T(kDeadMode));
 }
 
 // The hypotheses of one vector of particles; returns the log-likelihood of the sighting.
-template <class T>
+template <class T, class Way>
 HWY_INLINE T update_modes(const Sighting& s, const Sensor<T>& from, std::size_t i) {
   alignas(64) float log_weights[kMaxModes * kParticleLanes];
   T best = T(kDeadMode);
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    const T log_weight = update_mode(s, from, s.landmark.modes[k], i);
+    const T log_weight = update_mode<T, Way>(s, from, s.landmark.modes[k], i);
     store(log_weight, log_weights, k * kParticleLanes);
     best = larger(best, log_weight);
   }
@@ -352,11 +409,11 @@ HWY_INLINE T update_modes(const Sighting& s, const Sensor<T>& from, std::size_t 
   return best + logarithm(all);
 }
 
-template <class T>
+template <class T, class Way>
 HWY_INLINE void update_modes_range(const Sighting& s, const PoseColumns& sensors, double evidence,
                                    double* log_weight, ParticleRange range) {
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
-    const T log_likelihood = update_modes(s, load_sensor<T>(sensors, i), range.begin + i);
+    const T log_likelihood = update_modes<T, Way>(s, load_sensor<T>(sensors, i), range.begin + i);
     if (log_weight != nullptr) add_scaled(log_likelihood, evidence, log_weight + i);
   }
 }
@@ -375,7 +432,7 @@ HWY_INLINE Gaussian2<T> first_point(const SeenLandmark& z, T x, T y, T ux, T uy)
 }
 
 template <class T>
-HWY_INLINE void place_modes(const Sighting& s, const FirstGuess& guess, T axis, std::size_t i) {
+HWY_INLINE void place_directions(const Sighting& s, const FirstGuess& guess, T axis, std::size_t i) {
   const auto modes = static_cast<double>(s.landmark.mode_count);
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
     const LandmarkMode& mode = s.landmark.modes[k];
@@ -383,6 +440,26 @@ HWY_INLINE void place_modes(const Sighting& s, const FirstGuess& guess, T axis, 
     store_gaussian(Gaussian2<T>{phi, T(s.seen.range), T(guess.phi_var), T(0.0F), T(s.seen.R_rr)},
                    mode.gaussian, i);
     if (mode.log_weight != nullptr) store(T(-std::log(modes)), mode.log_weight, i);
+  }
+}
+
+// Distances in a geometric series, each as likely as it is far: evenly spread.
+template <class T>
+HWY_INLINE void place_distances(const Sighting& s, const FirstGuess& guess, T phi, std::size_t i) {
+  double depth = guess.depth;
+  double all = 0.0;
+  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
+    all += depth;
+    depth *= guess.depth_ratio;
+  }
+  depth = guess.depth;
+  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
+    const LandmarkMode& mode = s.landmark.modes[k];
+    const double sigma = guess.depth_sigma / depth;
+    store_gaussian(Gaussian2<T>{phi, T(1.0 / depth), T(s.seen.R_bb), T(0.0F), T(sigma * sigma)},
+                   mode.gaussian, i);
+    if (mode.log_weight != nullptr) store(T(std::log(depth / all)), mode.log_weight, i);
+    depth *= guess.depth_ratio;
   }
 }
 
@@ -406,12 +483,10 @@ HWY_INLINE void place_range(const Sighting& s, const FirstGuess& guess, const Po
     store(x, s.landmark.anchor_x, i);
     store(y, s.landmark.anchor_y, i);
     if (s.landmark.form == LandmarkForm::kRay) {
-      store_gaussian(
-          Gaussian2<T>{angle_of(u.sin, u.cos), T(guess.rho), T(s.seen.R_bb), T(0.0F), T(guess.rho_var)},
-          gaussian, i);
+      place_distances(s, guess, angle_of(u.sin, u.cos), i);
     } else {
       const SinCos<T> axis = direction(from, s.mount.cos_yaw, s.mount.sin_yaw);
-      place_modes(s, guess, angle_of(axis.sin, axis.cos), i);
+      place_directions(s, guess, angle_of(axis.sin, axis.cos), i);
     }
   }
 }
@@ -444,9 +519,12 @@ HWY_INLINE void condition_as(const Sighting& s, const Increment& expected, const
 template <class T>
 HWY_INLINE void update_as(const Sighting& s, const PoseColumns& sensors, double evidence, double* log_weight,
                           ParticleRange range) {
-  if (s.landmark.mode_count > 1) return update_modes_range<T>(s, sensors, evidence, log_weight, range);
-  choose_way(
-      s, [&](auto way) HWY_ATTR { update_range<T, decltype(way)>(s, sensors, evidence, log_weight, range); });
+  choose_way(s, [&](auto way) HWY_ATTR {
+    if (s.landmark.mode_count > 1)
+      update_modes_range<T, decltype(way)>(s, sensors, evidence, log_weight, range);
+    else
+      update_range<T, decltype(way)>(s, sensors, evidence, log_weight, range);
+  });
 }
 
 InnovationSums compare_lanes(const Sighting& s, const Increment& increment, const PoseColumns& before,

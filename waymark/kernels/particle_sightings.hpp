@@ -65,8 +65,9 @@ void update_landmark(const Sighting& sighting, const PoseColumns& sensors, doubl
 
 /// How a landmark that is seen for the first time is set up, beside what was measured.
 struct FirstGuess {
-  float rho = 0.0F;          ///< kRay: mean inverse distance, 1/m
-  float rho_var = 0.0F;      ///< and its variance
+  float depth = 0.0F;        ///< kRay: distance of the nearest hypothesis, m
+  float depth_ratio = 1.0F;  ///< of one hypothesis to the one before
+  float depth_sigma = 0.0F;  ///< standard deviation of each, as a part of it
   float phi_spacing = 0.0F;  ///< kRing: angle between hypotheses, which lie symmetric to the sensor's axis
   float phi_var = 0.0F;      ///< and the variance of each
 };
