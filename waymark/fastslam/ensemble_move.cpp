@@ -16,6 +16,7 @@ using kernels::RegressionSums;
 
 // Fewer particles do not know how they vary.
 constexpr double kLeastEffective = 5.0;
+constexpr double kLeastNoise = 1e-3;
 
 }  // namespace
 
@@ -26,11 +27,11 @@ EnsembleMove::EnsembleMove(ParticleBlocks& blocks)
       step_(blocks.capacity()),
       values_(blocks.capacity()) {}
 
-void EnsembleMove::take_in(const kernels::Sighting& sighting, bool bearing, double noise,
+void EnsembleMove::take_in(const kernels::Sighting& sighting, bool bearing, double variance, double news,
                            const kernels::Increment& increment, const Eigen::Vector2d& origin_m,
                            Particles& particles, LandmarkStore& store) {
   list_innovations(sighting, bearing, increment, origin_m, particles);
-  noise_ = noise;
+  noise_ = std::max(variance - innovations_.variance, kLeastNoise * variance) / news;
   if (!(innovations_.effective >= kLeastEffective && innovations_.variance > 0.0)) return;
   const kernels::MovingPoses poses = particles.moving();
   move_values(poses.x_m, false);
@@ -118,20 +119,42 @@ void EnsembleMove::move_values(double* values, bool is_angle) {
 
 /// Where it is, and in which direction from its anchor; distances from the anchor are the particle's own.
 void EnsembleMove::move_landmark(const kernels::LandmarkView& landmark) {
-  const auto move = [this](float* column) {
-    const auto gain = static_cast<float>(gain_of(column));
-    if (gain == 0.0F) return;
-    blocks_.run([&](std::size_t begin, std::size_t end) {
-      kernels::add_scaled(gain, step_.data() + begin, column + begin, end - begin);
-    });
-  };
   for (std::size_t k = 0; k < landmark.mode_count; ++k) {
-    move(landmark.modes[k].gaussian.a);
-    if (landmark.form == LandmarkForm::kPoint) move(landmark.modes[k].gaussian.b);
+    const kernels::LandmarkMode& mode = landmark.modes[k];
+    move_column(mode.gaussian.a, landmark.mode_count > 1 ? mode.log_weight : nullptr);
+    if (landmark.form == LandmarkForm::kPoint) move_column(mode.gaussian.b, nullptr);
   }
   if (landmark.form == LandmarkForm::kPoint) return;
-  move(landmark.anchor_x);
-  move(landmark.anchor_y);
+  move_column(landmark.anchor_x, nullptr);
+  move_column(landmark.anchor_y, nullptr);
+}
+
+void EnsembleMove::move_column(float* column, const float* log_weight) {
+  const auto gain = static_cast<float>(gain_of(log_weight == nullptr ? column : alive(column, log_weight)));
+  if (gain == 0.0F) return;
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    kernels::add_scaled(gain, step_.data() + begin, column + begin, end - begin);
+  });
+}
+
+/// A copy in which particles that have dropped the hypothesis, where the column holds anything, have the mean
+/// of the others.
+const float* EnsembleMove::alive(const float* column, const float* log_weight) {
+  const auto is_alive = [log_weight](std::size_t i) { return log_weight[i] > 0.5F * kernels::kDeadMode; };
+  const auto sums = blocks_.sum([&](std::size_t begin, std::size_t end) {
+    std::array<double, 2> sum{};
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_alive(i)) continue;
+      sum[0] += static_cast<double>(weight_[i]);
+      sum[1] += static_cast<double>(weight_[i]) * static_cast<double>(column[i]);
+    }
+    return sum;
+  });
+  const auto mean = static_cast<float>(sums[0] > 0.0 ? sums[1] / sums[0] : 0.0);
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) values_[i] = is_alive(i) ? column[i] : mean;
+  });
+  return values_.data();
 }
 
 }  // namespace waymark::fastslam

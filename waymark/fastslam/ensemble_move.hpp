@@ -24,10 +24,10 @@ class EnsembleMove {
  public:
   explicit EnsembleMove(ParticleBlocks& blocks);
 
-  /// Takes in one number of a sighting, its range or its bearing, as an observation whose variance over the
-  /// particles' own is `noise`. `increment` is still to be drawn. Touches every landmark: O(N landmarks). The
-  /// landmark must have one hypothesis.
-  void take_in(const kernels::Sighting& sighting, bool bearing, double noise,
+  /// Takes in one number of a sighting, its range or its bearing, whose innovation has this variance over the
+  /// set, what particles disagree on included; `news` is the power of its likelihood. `increment` is still to
+  /// be drawn. Of several hypotheses the mean innovation counts. Touches every landmark: O(N landmarks).
+  void take_in(const kernels::Sighting& sighting, bool bearing, double variance, double news,
                const kernels::Increment& increment, const Eigen::Vector2d& origin_m, Particles& particles,
                LandmarkStore& store);
 
@@ -45,6 +45,8 @@ class EnsembleMove {
   [[nodiscard]] double gain_of(const float* values);
   void move_values(double* values, bool is_angle);
   void move_landmark(const kernels::LandmarkView& landmark);
+  void move_column(float* column, const float* log_weight);
+  [[nodiscard]] const float* alive(const float* column, const float* log_weight);
 
   ParticleBlocks& blocks_;
   AlignedArray<float> weight_;

@@ -44,6 +44,13 @@ constexpr double kLeastNews = 0.1;
 // So many particles FastSlamOptions::move_above is for; more can afford to lose more.
 constexpr double kParticlesOfMoveAbove = 100.0;
 
+// A landmark that leaves the view does so by an edge, not by the limits of range, if it is so many standard
+// deviations off those; and it must not cross a wide angle between two scans.
+constexpr double kLimitMargin = 3.0;
+constexpr double kMostEdgeTurn_rad = 0.2;
+constexpr double kMissedByChance = 1e-3;
+constexpr double kMostMissed = 0.25;
+
 // Whether a landmark may become a point is asked at every so many sightings of it.
 constexpr int kSightingsPerRefinement = 4;
 
@@ -67,6 +74,20 @@ std::optional<Measured> measured(const Measurement& value) {
   if (const auto* z = std::get_if<Bearing>(&value))
     return Measured{SightingKind::kBearing, 0.0, z->bearing_rad};
   return std::nullopt;
+}
+
+/// 0 unless the range is all that was measured.
+double range_alone_m(const Observation& observation) {
+  const auto* z = std::get_if<Range>(&observation.value);
+  return z != nullptr ? z->range_m : 0.0;
+}
+
+/// In so many scans a landmark in view is seen at least once, but for one time in a thousand; 0 where that
+/// would take too many, or there are no edges.
+std::size_t scans_to_tell_an_edge(const LandmarkSensor& sensor) {
+  const double missed = 1.0 - sensor.detection_probability;
+  if (missed > kMostMissed || sensor.field_of_view_deg >= 360.0) return 0;
+  return static_cast<std::size_t>(std::ceil(std::log(kMissedByChance) / std::log(missed)));
 }
 
 int dimension(SightingKind kind) { return kind == SightingKind::kRangeBearing ? 2 : 1; }
@@ -102,7 +123,8 @@ kernels::SensorMount mount_of(const LandmarkSensor& sensor) {
           static_cast<float>(std::cos(yaw_rad)),
           static_cast<float>(std::sin(yaw_rad)),
           static_cast<float>(0.5 * to_radians(sensor.field_of_view_deg)),
-          static_cast<float>(1.0 / std::max(sensor.max_range_m, kMinDistance_m))};
+          static_cast<float>(1.0 / std::max(sensor.max_range_m, kMinDistance_m)),
+          static_cast<float>(sensor.min_range_m)};
 }
 
 }  // namespace
@@ -143,6 +165,8 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       store_(particle_blocks_),
       gate_sample_(options.particles),
       move_(particle_blocks_),
+      history_(sensor),
+      edge_scans_(scans_to_tell_an_edge(sensor)),
       ancestors_(particle_blocks_.capacity()),
       index_(static_cast<std::size_t>(options.capacity)),
       estimate_(initial) {
@@ -156,6 +180,7 @@ void FastSlam::predict(const Motion& motion) {
   pending_ = compose(pending_, motion);
   way_m_ += motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);
   moved_ = true;
+  history_.move(motion.increment);
   if (pending_.covariance(2, 2) < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;
   BlockTimer timer(table_);
   accepted_.clear();
@@ -175,6 +200,8 @@ void FastSlam::move_particles() {
 
 const Correction& FastSlam::correct(std::span<const Observation> observations) {
   BlockTimer timer(table_);
+  history_.scan();
+  ++scan_;
   associate(observations);
   correction_ = {innovations_, {}};
   timer.finish(kAssociate);
@@ -187,7 +214,8 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   timer.finish(kUpdate);
   if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
-  refine(observations);
+  miss();
+  refine();
   resample();
   timer.finish(kResample);
   add(observations);
@@ -266,13 +294,18 @@ void FastSlam::compare(std::span<const Observation> observations) {
     if (innovations_[i].outcome == Outcome::kMatched) judge(observations[i], i);
   if (is_lost()) widen(observations);
   accepted_.clear();
+  find_edges(observations);
   const std::int64_t moves = moves_;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     // What was compared before another sighting moved the particles is compared again.
     if (moves_ != moves) moments_[i] = compare(observations[i], matched_landmark(i));
-    accept(observations[i], innovations_[i], moments_[i]);
+    const int landmark = matched_landmark(i);
+    accept(sighting(observations[i], landmark), landmark, news(landmark), moments_[i]);
   }
+  for (const EdgeSighting& edge : edges_) accept(edge);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched) count_sighting(matched_landmark(i), observations[i]);
 }
 
 fastslam::InnovationMoments FastSlam::compare(const Observation& observation, int landmark) {
@@ -334,42 +367,90 @@ void FastSlam::widen(std::span<const Observation> observations) {
   }
 }
 
-void FastSlam::accept(const Observation& observation, const Innovation& innovation,
+void FastSlam::accept(const kernels::Sighting& sighting, int landmark, double news,
                       const fastslam::InnovationMoments& moments) {
-  const int landmark = *index_.find(innovation.landmark);
   const bool one_mode = store_.modes(landmark) == 1;
-  const bool is_taken = one_mode && move_by(observation, landmark, moments);
-  const bool shapes = one_mode && options_.proposal == ProposalKind::kSightings;
-  accepted_.push_back({sighting(observation, landmark), is_taken ? 0.0 : evidence(landmark), shapes});
-  count_sighting(landmark);
+  const bool is_taken = one_mode && move_by(sighting, news, moments);
+  const bool shapes = options_.proposal == ProposalKind::kSightings;
+  accepted_.push_back({sighting, is_taken ? 0.0 : news, shapes});
 }
 
 /// A sighting of a landmark that comes back, where particles disagree on what they see, moves them; then it
 /// does not weigh them.
-bool FastSlam::move_by(const Observation& observation, int landmark, fastslam::InnovationMoments moments) {
-  const double news = evidence(landmark);
-  if (way_since_m(landmark) < kLeastWay_m || news < kLeastNews) return false;
+bool FastSlam::move_by(const kernels::Sighting& sighting, double news, fastslam::InnovationMoments moments) {
+  if (news < kLeastNews) return false;
   const double spread_above = options_.move_above * particles_.count() / kParticlesOfMoveAbove;
   const kernels::Increment increment = fastslam::increment_of(pending_);
   const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
-  const auto kind = measured(observation.value)->kind;
+  const SightingKind kind = sighting.seen.kind;
   const std::int64_t moves = moves_;
   for (int k = 0; k < dimension(kind); ++k) {
     if (!(news * moments.spread(k, k) > spread_above * moments.noise(k, k))) continue;
-    const kernels::Sighting z = sighting(observation, landmark);
-    const bool bearing = kind == SightingKind::kBearing || k == 1;
-    move_.take_in(z, bearing, moments.noise(k, k) / news, increment, origin_m, particles_, store_);
+    const bool bearing = kind != SightingKind::kRange && (k == 1 || kind != SightingKind::kRangeBearing);
+    move_.take_in(sighting, bearing, moments.covariance()(k, k), news, increment, origin_m, particles_,
+                  store_);
     ++moves_;
     gate_sample_.load(particles_, origin_m);
-    moments = gate_sample_.compare(z, increment);
+    moments = gate_sample_.compare(sighting, increment);
   }
   return moves_ != moves;
+}
+
+/// A landmark that was seen by its range alone and now is not, or now is and was not, at a range well within
+/// the sensor's limits: it crossed an edge of the field of view. Whether it was missed by chance instead
+/// shows in as many scans as it takes.
+void FastSlam::find_edges(std::span<const Observation> observations) {
+  edges_.clear();
+  if (edge_scans_ == 0 || history_.earlier() <= edge_scans_) return;
+  const auto patience = static_cast<std::int64_t>(edge_scans_);
+  for (std::size_t k = 0; k < landmarks_.size(); ++k)
+    if (landmarks_[k].range_m > 0.0 && scan_ - landmarks_[k].seen_at_scan == patience)
+      add_edge(static_cast<int>(k), landmarks_[k].range_m, edge_scans_);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (innovations_[i].outcome != Outcome::kMatched) continue;
+    const Measured z = *measured(observations[i].value);
+    const int landmark = matched_landmark(i);
+    if (z.kind == SightingKind::kRange &&
+        scan_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_scan > patience)
+      add_edge(landmark, z.range_m, 1);
+  }
+}
+
+/// It crossed the edge between the scans `age` and `age` - 1 scans ago.
+void FastSlam::add_edge(int landmark, double range_m, std::size_t age) {
+  const Pose2 T_now_before = history_.T_now_at(age);
+  const Pose2 change = T_now_before.inverse() * history_.T_now_at(age - 1);
+  const double margin_m = kLimitMargin * sensor_.range_sigma_m + change.position().norm();
+  if (range_m < sensor_.min_range_m + margin_m || range_m > sensor_.max_range_m - margin_m) return;
+  const double turned_rad = std::abs(change.theta_rad) + change.position().norm() / range_m;
+  if (turned_rad > kMostEdgeTurn_rad) return;
+  const Pose2 half{0.5 * change.x_m, 0.5 * change.y_m, 0.5 * change.theta_rad};
+  EdgeSighting edge{landmark, {}, mount_};
+  edge.seen.kind = SightingKind::kViewEdge;
+  const double sigma_rad = std::hypot(to_radians(sensor_.bearing_sigma_deg), turned_rad / std::sqrt(12.0));
+  edge.seen.R_bb = static_cast<float>(sigma_rad * sigma_rad);
+  const Pose2 T_now_sensor = T_now_before * half * sensor_.T_robot_sensor();
+  edge.mount.x = static_cast<float>(T_now_sensor.x_m);
+  edge.mount.y = static_cast<float>(T_now_sensor.y_m);
+  edge.mount.cos_yaw = static_cast<float>(std::cos(T_now_sensor.theta_rad));
+  edge.mount.sin_yaw = static_cast<float>(std::sin(T_now_sensor.theta_rad));
+  edges_.push_back(edge);
+}
+
+void FastSlam::accept(const EdgeSighting& edge) {
+  store_.touch(edge.landmark);
+  const kernels::Sighting sighting{edge.seen, edge.mount,
+                                   store_.view(edge.landmark, estimate_.T_world_robot.position())};
+  gate_sample_.load(particles_, estimate_.T_world_robot.position());
+  const auto moments = gate_sample_.compare(sighting, fastslam::increment_of(pending_));
+  const double nis = moments.mean[0] * moments.mean[0] / moments.covariance()(0, 0);
+  if (nis <= gate_.threshold(1)) accept(sighting, edge.landmark, 1.0, moments);
 }
 
 int FastSlam::matched_landmark(std::size_t index) const { return *index_.find(innovations_[index].landmark); }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
-double FastSlam::evidence(int landmark) const {
+double FastSlam::news(int landmark) const {
   return options_.evidence_way_m > 0.0 ? -std::expm1(-way_since_m(landmark) / options_.evidence_way_m) : 1.0;
 }
 
@@ -377,10 +458,12 @@ double FastSlam::way_since_m(int landmark) const {
   return way_m_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_way_m;
 }
 
-void FastSlam::count_sighting(int landmark) {
+void FastSlam::count_sighting(int landmark, const Observation& observation) {
   Landmark& sighted = landmarks_[static_cast<std::size_t>(landmark)];
   ++sighted.observations;
   sighted.seen_at_way_m = way_m_;
+  sighted.seen_at_scan = scan_;
+  sighted.range_m = range_alone_m(observation);
 }
 
 void FastSlam::weigh() {
@@ -392,15 +475,36 @@ void FastSlam::weigh() {
     if (innovation.outcome == Outcome::kMatched) innovation.outcome = Outcome::kUnusable;
 }
 
-/// Landmarks that were seen may have become simpler.
-void FastSlam::refine(std::span<const Observation> observations) {
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (innovations_[i].outcome != Outcome::kMatched) continue;
-    const int landmark = matched_landmark(i);
-    if (store_.form(landmark) == LandmarkForm::kPoint) continue;
-    fastslam::tidy_modes(store_, landmark, particles_, particle_blocks_);
-    if (landmarks_[static_cast<std::size_t>(landmark)].observations % kSightingsPerRefinement == 0)
-      fastslam::become_point_if_linear(store_, landmark, particles_, mount_, particle_blocks_);
+/// Landmarks of several hypotheses that were expected and are not seen lose those that were.
+void FastSlam::miss() {
+  if (!(sensor_.detection_probability > 0.0)) return;
+  for (int k = 0; k < store_.size(); ++k)
+    if (store_.modes(k) > 1 && landmarks_[static_cast<std::size_t>(k)].seen_at_scan != scan_) miss(k);
+}
+
+void FastSlam::miss(int landmark) {
+  store_.touch(landmark);
+  const Eigen::Vector2d origin_m = estimate_.T_world_robot.position();
+  const kernels::Sighting sighting{{}, mount_, store_.view(landmark, origin_m)};
+  particle_blocks_.run([&](std::size_t begin, std::size_t end) {
+    fastslam::BlockScratch scratch;
+    const kernels::ParticleRange range{begin, end - begin};
+    kernels::miss_landmark(sighting, sensor_.detection_probability,
+                           fastslam::load_sensors(particles_, mount_, origin_m, range, scratch), range);
+  });
+}
+
+/// Landmarks may have become simpler.
+void FastSlam::refine() {
+  for (int k = 0; k < store_.size(); ++k) {
+    if (store_.form(k) == LandmarkForm::kPoint) continue;
+    const Landmark& landmark = landmarks_[static_cast<std::size_t>(k)];
+    if (store_.modes(k) > 1) {
+      store_.touch(k);
+      fastslam::tidy_modes(store_, k, particles_, particle_blocks_);
+    }
+    if (landmark.seen_at_scan == scan_ && landmark.observations % kSightingsPerRefinement == 0)
+      fastslam::become_point_if_linear(store_, k, particles_, mount_, particle_blocks_);
   }
 }
 
@@ -422,7 +526,8 @@ void FastSlam::add(std::span<const Observation> observations) {
     if (innovations_[i].outcome != Outcome::kAdded) continue;
     const SeenLandmark z = seen(observations[i], std::numeric_limits<double>::infinity());
     const bool guess = options_.init == LandmarkStart::kGuess && z.kind != SightingKind::kRangeBearing;
-    const fastslam::FirstForm first = guess ? fastslam::FirstForm{} : fastslam::first_form(z, sensor_);
+    const fastslam::FirstForm first =
+        guess ? fastslam::FirstForm{} : fastslam::first_form(z, sensor_, history_);
     const int landmark = store_.add(first.form, estimate_.T_world_robot.position(), first.modes);
     if (guess)
       fastslam::place_by_guess(
@@ -432,7 +537,7 @@ void FastSlam::add(std::span<const Observation> observations) {
     else
       place(landmark, z, first.guess);
     index_.assign(innovations_[i].landmark, landmark);
-    landmarks_.push_back({innovations_[i].landmark, 1, way_m_});
+    landmarks_.push_back({innovations_[i].landmark, 1, way_m_, scan_, range_alone_m(observations[i])});
   }
 }
 

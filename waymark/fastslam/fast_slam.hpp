@@ -13,6 +13,7 @@
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/particle_step.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/view_history.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
@@ -90,6 +91,15 @@ class FastSlam final : public Filter {
     LandmarkId id;
     int observations = 0;
     double seen_at_way_m = 0.0;
+    std::int64_t seen_at_scan = 0;
+    double range_m = 0.0;  ///< when it was last seen by range alone, else 0
+  };
+
+  /// A landmark that stood on an edge of the field of view, between two scans.
+  struct EdgeSighting {
+    int landmark = 0;
+    kernels::SeenLandmark seen;
+    kernels::SensorMount mount;
   };
 
   void associate(std::span<const Observation> observations);
@@ -100,14 +110,19 @@ class FastSlam final : public Filter {
   [[nodiscard]] bool is_lost();
   [[nodiscard]] bool mostly_gated() const;
   void widen(std::span<const Observation> observations);
-  void accept(const Observation& observation, const Innovation& innovation,
+  void accept(const kernels::Sighting& sighting, int landmark, double news,
               const fastslam::InnovationMoments& moments);
-  [[nodiscard]] bool move_by(const Observation& observation, int landmark,
+  [[nodiscard]] bool move_by(const kernels::Sighting& sighting, double news,
                              fastslam::InnovationMoments moments);
+  void find_edges(std::span<const Observation> observations);
+  void add_edge(int landmark, double range_m, std::size_t age);
+  void accept(const EdgeSighting& edge);
   void move_particles();
-  void count_sighting(int landmark);
+  void count_sighting(int landmark, const Observation& observation);
   void weigh();
-  void refine(std::span<const Observation> observations);
+  void miss();
+  void miss(int landmark);
+  void refine();
   void resample();
   void add(std::span<const Observation> observations);
   void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess);
@@ -115,7 +130,7 @@ class FastSlam final : public Filter {
   [[nodiscard]] kernels::Sighting sighting(const Observation& observation, int landmark) const;
   [[nodiscard]] kernels::SeenLandmark seen(const Observation& observation, double way_since_m) const;
   [[nodiscard]] double way_since_m(int landmark) const;
-  [[nodiscard]] double evidence(int landmark) const;
+  [[nodiscard]] double news(int landmark) const;
   [[nodiscard]] bool any(Outcome outcome) const;
   [[nodiscard]] int matched_landmark(std::size_t index) const;
   [[nodiscard]] LandmarkEstimate landmark(int index) const;
@@ -133,6 +148,9 @@ class FastSlam final : public Filter {
   fastslam::LandmarkStore store_;
   fastslam::GateSample gate_sample_;
   fastslam::EnsembleMove move_;
+  fastslam::ViewHistory history_;
+  std::size_t edge_scans_;
+  std::vector<EdgeSighting> edges_;
   std::vector<fastslam::AcceptedSighting> accepted_;
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;
@@ -143,6 +161,7 @@ class FastSlam final : public Filter {
   bool moved_ = false;     // since the last correct()
   double way_m_ = 0.0;     // driven so far, turns included
   std::uint64_t step_ = 0;
+  std::int64_t scan_ = 0;
   std::int64_t resamplings_ = 0;
   int gated_in_a_row_ = 0;
   std::int64_t slips_ = 0;

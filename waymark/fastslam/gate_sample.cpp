@@ -33,7 +33,7 @@ InnovationMoments moments_of(const InnovationSums& sums, const kernels::About& a
   InnovationMoments moments{Eigen::Vector2d(about.range, about.bearing) + shift,
                             symmetric(sums.nu_nu, sums.w) - shift * shift.transpose(),
                             symmetric(sums.L, sums.w)};
-  if (kind == SightingKind::kBearing) {
+  if (kind == SightingKind::kBearing || kind == SightingKind::kViewEdge) {
     moments.mean[0] = moments.mean[1];
     moments.spread(0, 0) = moments.spread(1, 1);
     moments.noise(0, 0) = moments.noise(1, 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "waymark/core/angle.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -14,13 +15,20 @@ using kernels::kDeadMode;
 using kernels::LandmarkForm;
 using kernels::LandmarkMode;
 using kernels::LandmarkView;
+using kernels::SeenLandmark;
 using kernels::SightingKind;
 
 // The sum of Gaussians on a ring is flat to 0.3 % when each is so wide in units of their spacing.
 constexpr double kRingOverlap = 0.6;
 // Gaussians of this part of their depth, in steps of (1 + it) / (1 - it), cover a ray evenly (Sola et al.
 // 2005).
-constexpr double kDepthSigma = 0.3;
+constexpr double kDepthSigma = 0.2;
+// Pieces of a ray are widened by so much, in variance, that their sum is smooth.
+constexpr double kRayWidening = 3.0;
+// Places on a ray or a ring that are asked whether the landmark can be there.
+constexpr int kCells = 512;
+// What was measured may be wrong by so many standard deviations.
+constexpr double kMargin = 3.0;
 // No landmark is nearer than this to a sensor whose limits do not say.
 constexpr double kLeastDepth_m = 0.1;
 // Particles of so little weight together do not hinder a landmark from changing its form.
@@ -187,6 +195,11 @@ bool is_linear_ray(const LandmarkStore& store, int landmark, const Particles& pa
   return exceptions < kExceptions;
 }
 
+/// Where it was seen, in the sensor's frame.
+Eigen::Vector2d direction_of(const SeenLandmark& seen, const LandmarkSensor& sensor) {
+  return Pose2{0.0, 0.0, -to_radians(sensor.yaw_deg)} * Eigen::Vector2d(seen.cos_bearing, seen.sin_bearing);
+}
+
 /// The landmark at (range, bearing) from one particle's sensor, as unsure as R in the frame of its ray.
 Numbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin_m, const RangeBearing& z,
                       const Eigen::Vector2d& R) {
@@ -196,34 +209,101 @@ Numbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin
   return {mean.x(), mean.y(), Sigma(0, 0), Sigma(0, 1), Sigma(1, 1)};
 }
 
-/// From the nearest to the farthest that the sensor sees.
-FirstForm first_ray(const LandmarkSensor& sensor) {
+/// What is likely of a number between two limits, by moments of pieces: each piece a hypothesis.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t count) : pieces_(count) {}
+
+  void add(std::size_t piece, double value, double mass) {
+    Piece& p = pieces_[std::min(piece, pieces_.size() - 1)];
+    p.mass += mass;
+    p.first += mass * value;
+    p.second += mass * value * value;
+  }
+
+  /// Those of a part of the most likely one. `widening` is on a piece's own variance, `blur` is added.
+  [[nodiscard]] FirstForm form(LandmarkForm form, double widening, double blur) const {
+    FirstForm first{form, 0, {}};
+    double most = 0.0;
+    for (const Piece& p : pieces_) most = std::max(most, p.mass);
+    double all = 0.0;
+    for (const Piece& p : pieces_)
+      if (p.mass > kLeastPart * most) all += p.mass;
+    for (const Piece& p : pieces_) {
+      if (!(p.mass > kLeastPart * most)) continue;
+      const double mean = p.first / p.mass;
+      const double variance = std::max(p.second / p.mass - mean * mean, 0.0);
+      first.guess.modes[first.modes++] = {narrow(mean), narrow(widening * variance + blur),
+                                          narrow(std::log(p.mass / all))};
+    }
+    return first;
+  }
+
+ private:
+  static constexpr double kLeastPart = 0.01;
+
+  struct Piece {
+    double mass = 0.0;
+    double first = 0.0;
+    double second = 0.0;
+  };
+  std::vector<Piece> pieces_;
+};
+
+/// Pieces of a ray in a geometric series of distances, every distance as likely.
+FirstForm first_ray(const SeenLandmark& seen, const LandmarkSensor& sensor, const ViewHistory& history) {
   constexpr double kRatio = (1.0 + kDepthSigma) / (1.0 - kDepthSigma);
   const double nearest_m = std::max(sensor.min_range_m, kLeastDepth_m);
-  const double farthest_m = std::max(sensor.max_range_m, nearest_m);
+  const double farthest_m = std::max(sensor.max_range_m, 1.01 * nearest_m);
   const double steps = std::ceil(std::log(farthest_m / nearest_m) / std::log(kRatio));
-  const double modes = std::clamp(steps, 1.0, static_cast<double>(kernels::kMaxModes));
-  return {LandmarkForm::kRay,
-          static_cast<std::size_t>(modes),
-          {.depth = narrow(nearest_m / (1.0 - kDepthSigma)),
-           .depth_ratio = narrow(kRatio),
-           .depth_sigma = narrow(kDepthSigma)}};
+  const double count = std::clamp(steps, 1.0, static_cast<double>(kernels::kMaxModes));
+  const Eigen::Vector2d direction = direction_of(seen, sensor);
+  const ViewMargin margin{0.0, kMargin * std::sqrt(static_cast<double>(seen.R_bb))};
+  Pieces pieces(static_cast<std::size_t>(count));
+  double mean_depth_m = 0.0;
+  double mass = 0.0;
+  for (int k = 0; k < kCells; ++k) {
+    const double depth_m = nearest_m + (k + 0.5) / kCells * (farthest_m - nearest_m);
+    const double likelihood = history.likelihood_unseen(depth_m * direction, margin);
+    const double position = std::log(depth_m / nearest_m) / std::log(farthest_m / nearest_m);
+    pieces.add(static_cast<std::size_t>(position * count), 1.0 / depth_m, likelihood);
+    mean_depth_m += likelihood * depth_m;
+    mass += likelihood;
+  }
+  mean_depth_m /= mass;
+  // The step of the cells and the error of a range, as inverse distances.
+  const double blur_m = std::hypot(sensor.range_sigma_m, (farthest_m - nearest_m) / kCells);
+  const double blur = blur_m / (mean_depth_m * mean_depth_m);
+  return pieces.form(LandmarkForm::kRay, kRayWidening, blur * blur);
+}
+
+/// Pieces of the arc within the field of view, every direction as likely.
+FirstForm first_ring(const SeenLandmark& seen, const LandmarkSensor& sensor, const ViewHistory& history) {
+  const double view_rad = to_radians(std::clamp(sensor.field_of_view_deg, 1.0, 360.0));
+  const double sigma_phi =
+      std::sqrt(0.6 * std::sqrt(static_cast<double>(seen.R_rr)) / static_cast<double>(seen.range));
+  const double wanted = std::ceil(kRingOverlap * view_rad / sigma_phi);
+  const double count = std::clamp(wanted, 1.0, static_cast<double>(kernels::kMaxModes));
+  const ViewMargin margin{kMargin * std::sqrt(static_cast<double>(seen.R_rr)), 0.0};
+  Pieces pieces(static_cast<std::size_t>(count));
+  for (int k = 0; k < kCells; ++k) {
+    const double part = (k + 0.5) / kCells;
+    const double phi = (part - 0.5) * view_rad;
+    const Eigen::Vector2d p = static_cast<double>(seen.range) * Eigen::Vector2d(std::cos(phi), std::sin(phi));
+    pieces.add(static_cast<std::size_t>(part * count), phi, history.likelihood_unseen(p, margin));
+  }
+  const double blur_rad = std::hypot(to_radians(sensor.bearing_sigma_deg), view_rad / kCells);
+  // A piece that is evenly likely has the variance of its width over 12.
+  return pieces.form(LandmarkForm::kRing, 12.0 * kRingOverlap * kRingOverlap, blur_rad * blur_rad);
 }
 
 }  // namespace
 
-FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor) {
+FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor,
+                     const ViewHistory& history) {
   if (seen.kind == SightingKind::kRangeBearing) return {};
-  if (seen.kind == SightingKind::kBearing) return first_ray(sensor);
-  const double view_rad = to_radians(std::clamp(sensor.field_of_view_deg, 1.0, 360.0));
-  const double sigma_phi = std::sqrt(0.6 * std::sqrt(static_cast<double>(seen.R_rr)) / seen.range);
-  const double wanted = std::ceil(kRingOverlap * view_rad / sigma_phi);
-  const double modes = std::clamp(wanted, 1.0, static_cast<double>(kernels::kMaxModes));
-  const double spacing = view_rad / modes;
-  return {
-      LandmarkForm::kRing,
-      static_cast<std::size_t>(modes),
-      {.phi_spacing = narrow(spacing), .phi_var = narrow(kRingOverlap * spacing * kRingOverlap * spacing)}};
+  return seen.kind == SightingKind::kBearing ? first_ray(seen, sensor, history)
+                                             : first_ring(seen, sensor, history);
 }
 
 void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,
@@ -255,8 +335,8 @@ void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandm
 }
 
 bool can_take(LandmarkForm form, SightingKind kind) {
-  return form == LandmarkForm::kPoint ||
-         kind == (form == LandmarkForm::kRay ? SightingKind::kBearing : SightingKind::kRange);
+  return form == LandmarkForm::kPoint || (form == LandmarkForm::kRay && kind == SightingKind::kBearing) ||
+         (form == LandmarkForm::kRing && (kind == SightingKind::kRange || kind == SightingKind::kViewEdge));
 }
 
 void tidy_modes(LandmarkStore& store, int landmark, const Particles& particles, ParticleBlocks& blocks) {

@@ -5,6 +5,7 @@
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/particle_step.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/view_history.hpp"
 #include "waymark/kernels/particle_sightings.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
@@ -17,11 +18,12 @@ struct FirstForm {
   kernels::FirstGuess guess;
 };
 
-/// A bearing begins as a ray whose inverse distance covers the sensor's limits, mean +- 2 sigma; a range as a
-/// ring of hypotheses over the sensor's field of view, so many that each stays nearly linear while the robot
-/// moves as far as the landmark is away: b sigma_phi^2 / 2 < 0.3 sigma_r (after Blanco et al. 2008 and
-/// Djugash and Singh 2008).
-[[nodiscard]] FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor);
+/// A bearing begins as a ray with hypotheses at distances in a geometric series within the sensor's limits
+/// (Sola et al. 2005); a range as a ring of hypotheses over its field of view, so many that each stays nearly
+/// linear while the robot moves as far as the landmark is away: b sigma_phi^2 / 2 < 0.3 sigma_r (after Blanco
+/// et al. 2008 and Djugash and Singh 2008). Only where it can have been out of view until now.
+[[nodiscard]] FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor,
+                                   const ViewHistory& history);
 
 /// A point that each particle draws: on the ray within the sensor's limits where only the bearing was
 /// measured, on the arc within its field of view where only the range was; as unsure as the draw.

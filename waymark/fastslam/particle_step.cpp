@@ -23,8 +23,8 @@ void update_block(std::span<const AcceptedSighting> sightings, double* log_weigh
                   ParticleRange range) {
   const kernels::PoseColumns sensors = scratch.sensors();
   for (const AcceptedSighting& each : sightings) {
-    // All sightings of a scan are made by one sensor.
-    if (&each == sightings.data())
+    // Most sightings of a scan are made from one place.
+    if (&each == sightings.data() || each.sighting.mount != (&each - 1)->sighting.mount)
       kernels::place_sensors(scratch.robots(), each.sighting.mount, sensors, range.count);
     kernels::update_landmark(each.sighting, sensors, each.evidence, each.shapes_motion ? nullptr : log_weight,
                              range);

@@ -91,7 +91,12 @@ struct LandmarkView {
   std::size_t mode_count = 1;
 };
 
-enum class SightingKind : std::uint8_t { kRangeBearing, kRange, kBearing };
+enum class SightingKind : std::uint8_t {
+  kRangeBearing,
+  kRange,
+  kBearing,
+  kViewEdge  ///< on an edge of the field of view, the nearer one: where it comes into view or leaves it
+};
 
 /// What was seen, and how unsure that is; what is the same for every particle.
 struct SeenLandmark {
@@ -112,6 +117,9 @@ struct SensorMount {
   float sin_yaw = 0.0F;
   float half_view = 4.0F;   ///< half the field of view, rad; pi or more: it sees all round
   float least_rho = 1e-4F;  ///< one over the largest range, 1/m
+  float least_range = 0.0F;
+
+  bool operator==(const SensorMount&) const = default;
 };
 
 /// Nearer to the sensor than this the direction of a landmark means nothing, m.

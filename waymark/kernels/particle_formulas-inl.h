@@ -238,13 +238,38 @@ HWY_INLINE RingLook<T> look_across_ring(const SeenLandmark& z, const Sensor<T>& 
           ray};
 }
 
-/// By how many standard deviations of its direction a landmark would lie outside the field of view.
+/// How far left of the sensor's axis that direction lies, in (-pi, pi].
 template <class T>
-HWY_INLINE T deviations_outside_view(const SensorMount& mount, const Sensor<T>& from, const Ray<T>& ray, T sigma) {
+HWY_INLINE T off_axis(const SensorMount& mount, const Sensor<T>& from, const Ray<T>& ray) {
   const T cx = from.c * T(mount.cos_yaw) - from.s * T(mount.sin_yaw);
   const T sx = from.s * T(mount.cos_yaw) + from.c * T(mount.sin_yaw);
-  const T off_axis = angle_of(absolute(cx * ray.uy - sx * ray.ux), cx * ray.ux + sx * ray.uy);
-  return (off_axis - T(mount.half_view)) / sigma;
+  return angle_of(cx * ray.uy - sx * ray.ux, cx * ray.ux + sx * ray.uy);
+}
+
+/// The innovation of a bearing that is the nearer edge of the field of view.
+template <class T>
+HWY_INLINE T edge_innovation(const SensorMount& mount, const Sensor<T>& from, const Ray<T>& ray) {
+  const T bearing = off_axis(mount, from, ray);
+  const T edge = where_less(bearing, T(0.0F), T(-mount.half_view), T(mount.half_view));
+  return edge - bearing;
+}
+
+/// The edge of the view, for a landmark (phi, r) on a ring about its anchor: as the bearing of a point p =
+/// anchor + r (cos phi, sin phi), d/dp = (-u_y, u_x) / |p - sensor|.
+template <class T>
+HWY_INLINE Look1<T> look_at_edge(const SeenLandmark& z, const SensorMount& mount, const Sensor<T>& from,
+                                 const Gaussian2<T>& m, T ax, T ay) {
+  const auto phi = sin_cos(m.a);
+  const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
+  const T tx = -ray.uy * ray.inverse_r;
+  const T ty = ray.ux * ray.inverse_r;
+  return {edge_innovation(mount, from, ray),
+          T(z.R_bb),
+          m.b * (ty * phi.cos - tx * phi.sin),
+          tx * phi.cos + ty * phi.sin,
+          -tx,
+          -ty,
+          tx * from.arm_y - ty * from.arm_x - T(1.0F)};
 }
 
 template <class T>

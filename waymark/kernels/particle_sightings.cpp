@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/particle_sightings.cpp"
@@ -18,10 +19,12 @@ namespace waymark::kernels::HWY_NAMESPACE {
 // Hypotheses below this part of the best one are dropped: log 1e-3.
 constexpr float kLogDrop = -6.9F;
 
-// How sharp the edges of a field of view are, besides what is unsure about the hypothesis: (2 deg)^2; and how
-// far outside a hypothesis dies.
+// How sharp the limits of what a sensor sees are, besides what is unsure about the hypothesis: (2 deg)^2,
+// (0.1 m)^2; how far outside a hypothesis dies that is seen, and how far inside one that is not.
 constexpr float kViewEdgeVariance = 0.0012F;
+constexpr float kReachVariance = 0.01F;
 constexpr float kDeviationsOutside = 3.0F;
+constexpr float kDeviationsInside = 2.0F;
 
 constexpr double kTurn = 6.283185307179586;
 
@@ -110,11 +113,33 @@ struct RangeOfRing {
   }
 };
 
+// The derivatives of the edge's innovation are those of a bearing.
+struct EdgeOfPoint {
+  template <class T>
+  static HWY_INLINE Look1<T> look(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m,
+                                  std::size_t) {
+    const T ox = T(s.landmark.offset_x);
+    const T oy = T(s.landmark.offset_y);
+    Look1<T> look = look_bearing(s.seen, from, m, ox, oy);
+    look.nu = edge_innovation(s.mount, from, ray_of(m.a + ox - from.x, m.b + oy - from.y));
+    return look;
+  }
+};
+struct EdgeOfRing {
+  template <class T>
+  static HWY_INLINE Look1<T> look(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m,
+                                  std::size_t i) {
+    return look_at_edge(s.seen, s.mount, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i));
+  }
+};
+
 // Calls job(way) with the way in which such a sighting looks at such a landmark.
 template <class Job>
 HWY_INLINE auto choose_way(const Sighting& s, const Job& job) {
   if (s.landmark.form == LandmarkForm::kRay) return job(BearingOfRay());
-  if (s.landmark.form == LandmarkForm::kRing) return job(RangeOfRing());
+  if (s.landmark.form == LandmarkForm::kRing)
+    return s.seen.kind == SightingKind::kViewEdge ? job(EdgeOfRing()) : job(RangeOfRing());
+  if (s.seen.kind == SightingKind::kViewEdge) return job(EdgeOfPoint());
   if (s.seen.kind == SightingKind::kRange) return job(RangeOfPoint());
   if (s.seen.kind == SightingKind::kBearing) return job(BearingOfPoint());
   return job(AtPoint());
@@ -268,48 +293,54 @@ HWY_INLINE void list_range(const Sighting& sighting, const Increment& increment,
   const Sighting s = carried(sighting, increment);
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const Sensor<T> from = sensor_of(load_pose<T>(before, i), s.mount);
-    const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
-    const Polar<T> nu = innovation(Way::look(s, from, m, range.begin + i), s.seen.kind);
-    store(nu.range - T(about.range), nu_r, i);
-    store(wrapped(nu.bearing - T(about.bearing)), nu_b, i);
+    const T zero = T(0.0F);
+    Polar<T> mean{zero, zero};
+    for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
+      const LandmarkMode& mode = s.landmark.modes[k];
+      const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, range.begin + i);
+      const Polar<T> nu = innovation(Way::look(s, from, m, range.begin + i), s.seen.kind);
+      const T of_range = nu.range - T(about.range);
+      const T of_bearing = wrapped(nu.bearing - T(about.bearing));
+      if (s.landmark.mode_count == 1) {
+        mean = {of_range, of_bearing};
+        continue;
+      }
+      const T log_weight = load<T>(mode.log_weight, range.begin + i);
+      const T w = exponential(log_weight);
+      mean.range = mean.range + where_less(T(kLogDrop), log_weight, w * of_range, zero);
+      mean.bearing = mean.bearing + where_less(T(kLogDrop), log_weight, w * of_bearing, zero);
+    }
+    store(mean.range, nu_r, i);
+    store(mean.bearing, nu_b, i);
   }
 }
 
-// What several hypotheses together say of the robot: one look of the moments of theirs.
-template <class T>
-struct Mixture {
-  T nu, Z, g_x, g_y, g_t;
-};
-
+// Several hypotheses together say of the increment what their mixture has as moments: with g_k the row of
+// each, cov(d, z) = P sum w_k g_k, var z = sum w_k (g_k P g_k^T + Z_k + nu_k^2) - (sum w_k nu_k)^2.
 template <class T, class Way>
-HWY_INLINE Mixture<T> look_at_modes(const Sighting& s, const Sensor<T>& from, std::size_t i) {
+HWY_INLINE Conditioned<T> condition_by_modes(const Sighting& s, const Sensor<T>& from, const Pose<T>& before,
+                                             const Gaussian3<T>& d, std::size_t i, Way) {
   const T zero = T(0.0F);
-  Mixture<T> sum{zero, zero, zero, zero, zero};
-  T nu_nu = zero;
+  T nu = zero;
+  T second = zero;
+  Column3<T> g{zero, zero, zero};
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
     const LandmarkMode& mode = s.landmark.modes[k];
     const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, i);
     const Look1<T> look = Way::look(s, from, m, i);
+    const Column3<T> g_k = in_frame_of(before, look.g_x, look.g_y, look.g_t);
     const T log_weight = load<T>(mode.log_weight, i);
     const T w = exponential(log_weight);
-    const auto add = [&](T& to, T x)
-                         HWY_ATTR { to = to + where_less(T(-20.0F), log_weight, w * x, T(0.0F)); };
-    add(sum.nu, look.nu);
-    add(nu_nu, look.nu * look.nu);
-    add(sum.Z, landmark_variance(look, m) + look.R);
-    add(sum.g_x, look.g_x);
-    add(sum.g_y, look.g_y);
-    add(sum.g_t, look.g_t);
+    const auto add = [&](T& to, T x) HWY_ATTR { to = to + where_less(T(kLogDrop), log_weight, w * x, zero); };
+    add(nu, look.nu);
+    add(second, look.nu * look.nu + dot(g_k, times(d, g_k)) + landmark_variance(look, m) + look.R);
+    add(g.x, g_k.x);
+    add(g.y, g_k.y);
+    add(g.t, g_k.t);
   }
-  sum.Z = sum.Z + larger(nu_nu - sum.nu * sum.nu, zero);
-  return sum;
-}
-
-template <class T, class Way>
-HWY_INLINE Conditioned<T> condition_by_modes(const Sighting& s, const Sensor<T>& from, const Pose<T>& before,
-                                             const Gaussian3<T>& d, std::size_t i, Way) {
-  const Mixture<T> m = look_at_modes<T, Way>(s, from, i);
-  return condition1(d, in_frame_of(before, m.g_x, m.g_y, m.g_t), m.nu, m.Z);
+  // No less than the noise, not by rounding and not where every hypothesis is dropped.
+  const T noise = T(s.seen.kind == SightingKind::kRange ? s.seen.R_rr : s.seen.R_bb);
+  return condition1(d, g, nu, larger(second - nu * nu - dot(g, times(d, g)), noise));
 }
 template <class T>
 HWY_INLINE Conditioned<T> condition_by_modes(const Sighting&, const Sensor<T>&, const Pose<T>&,
@@ -354,22 +385,19 @@ HWY_INLINE void update_range(const Sighting& s, const PoseColumns& sensors, doub
   }
 }
 
-// A hypothesis that the sensor could not have seen dies. It is the state that is out of view, not the
-// sighting that is unlikely: to count that at every sighting would be to count it again and again.
-template <class T>
+// A hypothesis that the sensor could not have seen dies, unless it could have seen none. It is the state that
+// is out of view, not the sighting that is unlikely: to count that at every sighting would be to count it
+// again and again.
+template <class T, class Way>
 HWY_INLINE T log_possible(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m, std::size_t i,
-                          RangeOfRing) {
-  if (s.mount.half_view >= 3.14F) return T(0.0F);
+                          Way) {
+  if (!std::is_same_v<Way, RangeOfRing> || s.mount.half_view >= 3.14F) return T(0.0F);
   const Ray<T> ray =
       look_across_ring(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i)).ray;
   const T across = m.b * ray.inverse_r;
   const T sigma = square_root(m.aa * across * across + T(kViewEdgeVariance));
-  return where_less(T(kDeviationsOutside), deviations_outside_view(s.mount, from, ray, sigma), T(kDeadMode),
-                    T(0.0F));
-}
-template <class T, class Way>
-HWY_INLINE T log_possible(const Sighting&, const Sensor<T>&, const Gaussian2<T>&, std::size_t, Way) {
-  return T(0.0F);
+  const T outside = absolute(off_axis(s.mount, from, ray)) - T(s.mount.half_view);
+  return where_less(T(kDeviationsOutside) * sigma, outside, T(2.0F * kLogDrop), T(0.0F));
 }
 
 // Updates a hypothesis and returns its log weight before normalisation.
@@ -383,6 +411,25 @@ HWY_INLINE T update_mode(const Sighting& s, const Sensor<T>& from, const Landmar
   return where_less(T(0.5F * kDeadMode), before, weight, T(kDeadMode));
 }
 
+// Keeps the hypotheses that are not far below the best one, normalised; returns the log of their sum.
+template <class T>
+HWY_INLINE T keep_modes(const LandmarkView& landmark, const float* log_weights, T best, std::size_t i) {
+  T all = T(0.0F);
+  T kept = T(0.0F);
+  for (std::size_t k = 0; k < landmark.mode_count; ++k) {
+    const T below = load<T>(log_weights, k * kParticleLanes) - best;
+    const T part = exponential(below);
+    all = all + part;
+    kept = kept + where_less(below, T(kLogDrop), T(0.0F), part);
+  }
+  const T log_kept = logarithm(kept);
+  for (std::size_t k = 0; k < landmark.mode_count; ++k) {
+    const T below = load<T>(log_weights, k * kParticleLanes) - best;
+    store(where_less(below, T(kLogDrop), T(kDeadMode), below - log_kept), landmark.modes[k].log_weight, i);
+  }
+  return best + logarithm(all);
+}
+
 // The hypotheses of one vector of particles; returns the log-likelihood of the sighting.
 template <class T, class Way>
 HWY_INLINE T update_modes(const Sighting& s, const Sensor<T>& from, std::size_t i) {
@@ -393,20 +440,7 @@ HWY_INLINE T update_modes(const Sighting& s, const Sensor<T>& from, std::size_t 
     store(log_weight, log_weights, k * kParticleLanes);
     best = larger(best, log_weight);
   }
-  T all = T(0.0F);
-  T kept = T(0.0F);
-  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    const T below = load<T>(log_weights, k * kParticleLanes) - best;
-    const T part = exponential(below);
-    all = all + part;
-    kept = kept + where_less(below, T(kLogDrop), T(0.0F), part);
-  }
-  const T log_kept = logarithm(kept);
-  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    const T below = load<T>(log_weights, k * kParticleLanes) - best;
-    store(where_less(below, T(kLogDrop), T(kDeadMode), below - log_kept), s.landmark.modes[k].log_weight, i);
-  }
-  return best + logarithm(all);
+  return keep_modes(s.landmark, log_weights, best, i);
 }
 
 template <class T, class Way>
@@ -415,6 +449,66 @@ HWY_INLINE void update_modes_range(const Sighting& s, const PoseColumns& sensors
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const T log_likelihood = update_modes<T, Way>(s, load_sensor<T>(sensors, i), range.begin + i);
     if (log_weight != nullptr) add_scaled(log_likelihood, evidence, log_weight + i);
+  }
+}
+
+// Where a hypothesis of a ray or a ring is, and how unsure.
+template <class T>
+struct Place {
+  Ray<T> ray;
+  T bearing_var, range_var;
+};
+
+template <class T>
+HWY_INLINE Place<T> place_of(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m, std::size_t i) {
+  const bool is_ray = s.landmark.form == LandmarkForm::kRay;
+  const T depth = is_ray ? inverse(larger(m.b, T(s.mount.least_rho))) : m.b;
+  const T depth_var = is_ray ? m.bb * depth * depth * depth * depth : m.bb;
+  const auto phi = sin_cos(m.a);
+  const Ray<T> ray = ray_of(anchor_x<T>(s.landmark, i) - from.x + depth * phi.cos,
+                            anchor_y<T>(s.landmark, i) - from.y + depth * phi.sin);
+  // Along and across the line of sight, of what lies along and across that from the anchor.
+  const T c = ray.ux * phi.cos + ray.uy * phi.sin;
+  const T along = depth_var;
+  const T across = m.aa * depth * depth;
+  const T c_c = c * c;
+  const T s_s = T(1.0F) - c_c;
+  const T inverse_square = ray.inverse_r * ray.inverse_r;
+  return {ray, (c_c * across + s_s * along) * inverse_square, c_c * along + s_s * across};
+}
+
+// 1 for what lies inside the limits by so many standard deviations, else 0: what may be out of view may have
+// been missed at every scan for the same reason.
+template <class T>
+HWY_INLINE T clearly_in_view(const Sighting& s, const Sensor<T>& from, const Place<T>& p) {
+  const T reach_margin = T(kDeviationsInside) * square_root(p.range_var + T(kReachVariance));
+  const T far = inverse(T(s.mount.least_rho)) - p.ray.r - reach_margin;
+  const T near = p.ray.r - T(s.mount.least_range) - reach_margin;
+  const T edge_margin = T(kDeviationsInside) * square_root(p.bearing_var + T(kViewEdgeVariance));
+  const T edge = T(s.mount.half_view) - absolute(off_axis(s.mount, from, p.ray)) - edge_margin;
+  const T inside = s.mount.half_view < 3.14F ? edge : T(1.0F);
+  const T least = T(0.0F) - larger(T(0.0F) - inside, larger(T(0.0F) - far, T(0.0F) - near));
+  return where_less(T(0.0F), least, T(1.0F), T(0.0F));
+}
+
+template <class T>
+HWY_INLINE void miss_range(const Sighting& s, double detected, const PoseColumns& sensors,
+                           ParticleRange range) {
+  alignas(64) float log_weights[kMaxModes * kParticleLanes];
+  for (std::size_t k = 0; k < range.count; k += width_of<T>()) {
+    const std::size_t i = range.begin + k;
+    const Sensor<T> from = load_sensor<T>(sensors, k);
+    T best = T(kDeadMode);
+    for (std::size_t m = 0; m < s.landmark.mode_count; ++m) {
+      const LandmarkMode& mode = s.landmark.modes[m];
+      const Place<T> place = place_of(s, from, load_gaussian<T>(mode.gaussian, i), i);
+      const T missed = T(1.0F) - T(detected) * clearly_in_view(s, from, place);
+      const T before = load<T>(mode.log_weight, i);
+      const T after = where_less(T(0.5F * kDeadMode), before, before + logarithm(missed), T(kDeadMode));
+      store(after, log_weights, m * kParticleLanes);
+      best = larger(best, after);
+    }
+    keep_modes(s.landmark, log_weights, best, i);
   }
 }
 
@@ -431,35 +525,18 @@ HWY_INLINE Gaussian2<T> first_point(const SeenLandmark& z, T x, T y, T ux, T uy)
           xy * (R_aa - R_tt) + (xx - yy) * R_at, yy * R_aa + T(2.0F) * xy * R_at + xx * R_tt};
 }
 
+// A ray in direction `phi`, a ring about it.
 template <class T>
-HWY_INLINE void place_directions(const Sighting& s, const FirstGuess& guess, T axis, std::size_t i) {
-  const auto modes = static_cast<double>(s.landmark.mode_count);
+HWY_INLINE void place_modes(const Sighting& s, const FirstGuess& guess, T phi, std::size_t i) {
+  const bool is_ray = s.landmark.form == LandmarkForm::kRay;
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
     const LandmarkMode& mode = s.landmark.modes[k];
-    const T phi = axis + T((static_cast<double>(k) - 0.5 * (modes - 1.0)) * guess.phi_spacing);
-    store_gaussian(Gaussian2<T>{phi, T(s.seen.range), T(guess.phi_var), T(0.0F), T(s.seen.R_rr)},
+    const FirstMode& first = guess.modes[k];
+    store_gaussian(is_ray ? Gaussian2<T>{phi, T(first.value), T(s.seen.R_bb), T(0.0F), T(first.variance)}
+                          : Gaussian2<T>{phi + T(first.value), T(s.seen.range), T(first.variance), T(0.0F),
+                                         T(s.seen.R_rr)},
                    mode.gaussian, i);
-    if (mode.log_weight != nullptr) store(T(-std::log(modes)), mode.log_weight, i);
-  }
-}
-
-// Distances in a geometric series, each as likely as it is far: evenly spread.
-template <class T>
-HWY_INLINE void place_distances(const Sighting& s, const FirstGuess& guess, T phi, std::size_t i) {
-  double depth = guess.depth;
-  double all = 0.0;
-  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    all += depth;
-    depth *= guess.depth_ratio;
-  }
-  depth = guess.depth;
-  for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    const LandmarkMode& mode = s.landmark.modes[k];
-    const double sigma = guess.depth_sigma / depth;
-    store_gaussian(Gaussian2<T>{phi, T(1.0 / depth), T(s.seen.R_bb), T(0.0F), T(sigma * sigma)},
-                   mode.gaussian, i);
-    if (mode.log_weight != nullptr) store(T(std::log(depth / all)), mode.log_weight, i);
-    depth *= guess.depth_ratio;
+    if (mode.log_weight != nullptr) store(T(first.log_weight), mode.log_weight, i);
   }
 }
 
@@ -482,12 +559,9 @@ HWY_INLINE void place_range(const Sighting& s, const FirstGuess& guess, const Po
     }
     store(x, s.landmark.anchor_x, i);
     store(y, s.landmark.anchor_y, i);
-    if (s.landmark.form == LandmarkForm::kRay) {
-      place_distances(s, guess, angle_of(u.sin, u.cos), i);
-    } else {
-      const SinCos<T> axis = direction(from, s.mount.cos_yaw, s.mount.sin_yaw);
-      place_directions(s, guess, angle_of(axis.sin, axis.cos), i);
-    }
+    const SinCos<T> axis =
+        s.landmark.form == LandmarkForm::kRay ? u : direction(from, s.mount.cos_yaw, s.mount.sin_yaw);
+    place_modes(s, guess, angle_of(axis.sin, axis.cos), i);
   }
 }
 
@@ -547,6 +621,10 @@ void update_lanes(const Sighting& s, const PoseColumns& sensors, double evidence
   update_as<Lanes>(s, sensors, evidence, log_weight, range);
 }
 
+void miss_lanes(const Sighting& s, double detected, const PoseColumns& sensors, ParticleRange range) {
+  miss_range<Lanes>(s, detected, sensors, range);
+}
+
 void place_lanes(const Sighting& s, const FirstGuess& guess, const PoseColumns& sensors,
                  ParticleRange range) {
   place_range<Lanes>(s, guess, sensors, range);
@@ -562,6 +640,7 @@ HWY_EXPORT(compare_lanes);
 HWY_EXPORT(list_lanes);
 HWY_EXPORT(condition_lanes);
 HWY_EXPORT(update_lanes);
+HWY_EXPORT(miss_lanes);
 HWY_EXPORT(place_lanes);
 
 InnovationSums compare_sighting(const Sighting& sighting, const Increment& increment,
@@ -584,6 +663,11 @@ void condition_increments(const Sighting& sighting, const Increment& expected, c
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range) {
   HWY_DYNAMIC_DISPATCH(update_lanes)(sighting, sensors, evidence, log_weight, range);
+}
+
+void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
+                   ParticleRange range) {
+  HWY_DYNAMIC_DISPATCH(miss_lanes)(sighting, detected, sensors, range);
 }
 
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,
@@ -613,6 +697,11 @@ void condition_increments(const Sighting& sighting, const Increment& expected, c
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range) {
   HWY_NAMESPACE::update_as<double>(sighting, sensors, evidence, log_weight, range);
+}
+
+void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
+                   ParticleRange range) {
+  HWY_NAMESPACE::miss_range<double>(sighting, detected, sensors, range);
 }
 
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,

@@ -63,14 +63,23 @@ void condition_increments(const Sighting& sighting, const Increment& expected, c
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range);
 
-/// How a landmark that is seen for the first time is set up, beside what was measured.
-struct FirstGuess {
-  float depth = 0.0F;        ///< kRay: distance of the nearest hypothesis, m
-  float depth_ratio = 1.0F;  ///< of one hypothesis to the one before
-  float depth_sigma = 0.0F;  ///< standard deviation of each, as a part of it
-  float phi_spacing = 0.0F;  ///< kRing: angle between hypotheses, which lie symmetric to the sensor's axis
-  float phi_var = 0.0F;      ///< and the variance of each
+/// A hypothesis of what the first sighting of a landmark does not measure.
+struct FirstMode {
+  float value = 0.0F;  ///< kRay: inverse distance, 1/m; kRing: direction, left of the sensor's axis
+  float variance = 0.0F;
+  float log_weight = 0.0F;
 };
+
+/// How a landmark that is seen for the first time is set up, beside what was measured: a mode for each of its
+/// hypotheses. Nothing for points.
+struct FirstGuess {
+  std::array<FirstMode, kMaxModes> modes{};
+};
+
+/// Of a landmark of several hypotheses that was not seen, those that are clearly in view keep 1 - detected of
+/// their weight. Dropped as in update_landmark.
+void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
+                   ParticleRange range);
 
 /// The landmark as it is after one sighting from `sensors`: for a known pose, Sigma = Hm^-1 R Hm^-T.
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,
@@ -87,6 +96,8 @@ void condition_increments(const Sighting& sighting, const Increment& expected, c
                           ParticleRange range);
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range);
+void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
+                   ParticleRange range);
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,
                     ParticleRange range);
 }  // namespace reference

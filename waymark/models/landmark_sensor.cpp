@@ -49,6 +49,9 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
+  schema.real(
+      "sensor.detection_probability", s.detection_probability, {0.0, 0.999},
+      "chance that a landmark within these limits is reported; 0: that one is not reported says nothing");
   schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0}, "how much later than the sighting its stamp is, s");
 }
 
@@ -82,6 +85,14 @@ Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement
   if (range) variances[0] = range_sigma_m * range_sigma_m;
   if (bearing_of(measurement)) variances[range ? 1 : 0] = bearing_sigma_rad * bearing_sigma_rad;
   return variances.asDiagonal();
+}
+
+bool is_in_view(const LandmarkSensor& sensor, const Eigen::Vector2d& p_sensor, const ViewMargin& margin) {
+  const double range_m = p_sensor.norm();
+  const double half_view_rad = 0.5 * to_radians(sensor.field_of_view_deg);
+  const double bearing_rad = std::abs(std::atan2(p_sensor.y(), p_sensor.x()));
+  return range_m >= sensor.min_range_m + margin.range_m && range_m <= sensor.max_range_m - margin.range_m &&
+         (half_view_rad >= kPi || bearing_rad <= half_view_rad - margin.bearing_rad);
 }
 
 bool is_usable(const LandmarkSensor& sensor, const Measurement& measurement) {

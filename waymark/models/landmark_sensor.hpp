@@ -40,6 +40,8 @@ struct LandmarkSensor {
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
   double field_of_view_deg = 360.0;
+  /// That it reports a landmark within these limits; 0: that it reports none says nothing.
+  double detection_probability = 0.0;
   double delay_s = 0.0;  ///< how much later than the sighting its stamp is
 
   [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
@@ -58,6 +60,16 @@ void describe(Schema& schema, LandmarkSensor& sensor);
 /// The configured noise for one measurement, in the layout of Observation::covariance (one-dimensional
 /// values use (0, 0)); zero for a kind that this sensor does not measure.
 [[nodiscard]] Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement);
+
+/// How far inside the limits of a sensor.
+struct ViewMargin {
+  double range_m = 0.0;
+  double bearing_rad = 0.0;
+};
+
+/// Whether the limits of range and field of view take in a point (m, sensor frame) and a margin about it.
+[[nodiscard]] bool is_in_view(const LandmarkSensor& sensor, const Eigen::Vector2d& p_sensor,
+                              const ViewMargin& margin = {});
 
 /// Finite, and a range within the sensor's limits.
 [[nodiscard]] bool is_usable(const LandmarkSensor& sensor, const Measurement& measurement);

@@ -9,6 +9,9 @@ namespace {
 // Identities that no landmark bears: so many of them that one is seldom invented twice.
 constexpr int kInventedIdentities = 1000;
 
+// A filter must not believe in a sensor that never misses.
+constexpr double kDetectionProbabilityMax = 0.99;
+
 std::size_t draw_index(std::size_t count, RandomStream& random) {
   return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
 }
@@ -67,7 +70,8 @@ LandmarkSensor model_of(const SensorOptions& options) {
           .bearing_sigma_deg = options.bearing_sigma_deg,
           .min_range_m = options.range_min_m,
           .max_range_m = options.range_max_m,
-          .field_of_view_deg = options.field_of_view_deg};
+          .field_of_view_deg = options.field_of_view_deg,
+          .detection_probability = std::min(1.0 - options.drop_probability, kDetectionProbabilityMax)};
 }
 
 RangeBearing sight(const Pose2& T_sensor_world, const Eigen::Vector2d& p_world) {

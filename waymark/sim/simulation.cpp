@@ -41,6 +41,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& o
       {"sensor.min_range_m", sensor.min_range_m},
       {"sensor.max_range_m", sensor.max_range_m},
       {"sensor.field_of_view_deg", sensor.field_of_view_deg},
+      {"sensor.detection_probability", sensor.detection_probability},
   };
   std::vector<std::pair<std::string, std::string>> settings;
   for (const auto& [key, value] : values) settings.emplace_back(key, fmt::format("{}", value));
