@@ -136,7 +136,8 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
 
   const Drive driven = drive(path, options, seed);
   LogInfo info{
-      std::move(name), "simulation", settings_of(options), place_landmarks(options.world, path, seed), {}};
+      std::move(name), "simulation", settings_of(options), place_landmarks(options.world, path, seed),
+      options.sensor.identities, {}};
   std::vector<Event> events;
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);

@@ -20,7 +20,10 @@
 namespace waymark {
 
 enum class FilterKind { kEkf, kFastSlam };
-enum class Association { kKnown };
+enum class Association {
+  kKnown,  ///< by their identities
+  kMl      ///< those without identity by maximum likelihood
+};
 
 /// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the
 /// result.
