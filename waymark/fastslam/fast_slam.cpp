@@ -105,6 +105,12 @@ kernels::SensorMount mount_of(const LandmarkSensor& sensor) {
           static_cast<float>(1.0 / std::max(sensor.max_range_m, kMinDistance_m))};
 }
 
+kernels::View view_of(const LandmarkSensor& sensor, const kernels::SensorMount& mount) {
+  const Eigen::Matrix2d R = noise_covariance(sensor, RangeBearing{sensor.max_range_m, 0.0});
+  return {mount, static_cast<float>(sensor.min_range_m), static_cast<float>(sensor.max_range_m),
+          static_cast<float>(R(0, 0)), static_cast<float>(R(1, 1))};
+}
+
 }  // namespace
 
 void describe(Schema& schema, FastSlamOptions& o) {
@@ -132,7 +138,8 @@ void describe(Schema& schema, FastSlamOptions& o) {
 }
 
 FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
-                   std::uint64_t seed, int threads, const PoseEstimate& initial)
+                   std::uint64_t seed, int threads, const PoseEstimate& initial,
+                   const std::optional<AssociationOptions>& association)
     : options_(options),
       gate_(gate),
       sensor_(sensor),
@@ -145,7 +152,12 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       move_(particle_blocks_),
       ancestors_(particle_blocks_.capacity()),
       index_(static_cast<std::size_t>(options.capacity)),
+      nobody_(particle_blocks_.capacity()),
       estimate_(initial) {
+  if (association) {
+    association_.emplace(AssociationModel(*association, sensor), particle_blocks_);
+    view_ = view_of(sensor, mount_);
+  }
   if (!initial.covariance.isZero(0.0))
     fastslam::step(particles_, spread_of(initial), initial.T_world_robot.position(), {},
                    {seed_, StreamPurpose::kInitialisation, 0}, particle_blocks_);
@@ -178,7 +190,7 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   associate(observations);
   correction_ = {innovations_, {}};
   timer.finish(kAssociate);
-  if (!any(Outcome::kMatched) && !any(Outcome::kAdded)) return correction_;
+  if (!any(Outcome::kMatched) && !any(Outcome::kAdded) && !any_contested()) return correction_;
 
   compare(observations);
   timer.finish(kCompare);
@@ -188,10 +200,16 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   if (any(Outcome::kMatched)) estimate_ = fastslam::estimate(particles_, particle_blocks_);
   timer.finish(kEstimate);
   refine(observations);
+  if (association_) {
+    update_existence();
+    forget_ghosts();
+    add_choices(observations);
+  }
   resample();
   timer.finish(kResample);
   add(observations);
   timer.finish(kAdd);
+  correction_ = {innovations_, removed_};
   moved_ = false;
   return correction_;
 }
@@ -203,13 +221,27 @@ bool FastSlam::any(Outcome outcome) const {
 void FastSlam::associate(std::span<const Observation> observations) {
   innovations_.assign(observations.size(), {});
   moments_.assign(observations.size(), {});
+  matched_.assign(observations.size(), -1);
+  contested_.assign(observations.size(), 0);
+  removed_.clear();
+  ++scan_;
   int room = options_.capacity - store_.size();
   for (std::size_t i = 0; i < observations.size(); ++i) {
     Innovation& innovation = innovations_[i];
     if (observations[i].id) innovation.landmark = *observations[i].id;
     innovation.outcome = screen(i, observations[i]);
     if (innovation.outcome == Outcome::kAdded && room-- <= 0) innovation.outcome = Outcome::kMapFull;
+    if (innovation.outcome == Outcome::kMatched) take_match(i, *index_.find(innovation.landmark));
   }
+  if (association_) match_unnamed(observations);
+}
+
+void FastSlam::take_match(std::size_t index, int landmark) {
+  Landmark& matched = landmarks_[static_cast<std::size_t>(landmark)];
+  matched_[index] = landmark;
+  matched.seen_at_scan = scan_;
+  innovations_[index].landmark = matched.id;
+  innovations_[index].outcome = Outcome::kMatched;
 }
 
 /// What is to be done with an observation as far as its identity goes.
@@ -271,8 +303,9 @@ void FastSlam::compare(std::span<const Observation> observations) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     // What was compared before another sighting moved the particles is compared again.
     if (moves_ != moves) moments_[i] = compare(observations[i], matched_landmark(i));
-    accept(observations[i], innovations_[i], moments_[i]);
+    accept(observations[i], matched_landmark(i), moments_[i]);
   }
+  if (association_) settle_contested(observations);
 }
 
 fastslam::InnovationMoments FastSlam::compare(const Observation& observation, int landmark) {
@@ -334,9 +367,8 @@ void FastSlam::widen(std::span<const Observation> observations) {
   }
 }
 
-void FastSlam::accept(const Observation& observation, const Innovation& innovation,
+void FastSlam::accept(const Observation& observation, int landmark,
                       const fastslam::InnovationMoments& moments) {
-  const int landmark = *index_.find(innovation.landmark);
   const bool one_mode = store_.modes(landmark) == 1;
   const bool is_taken = one_mode && move_by(observation, landmark, moments);
   const bool shapes = one_mode && options_.proposal == ProposalKind::kSightings;
@@ -366,7 +398,7 @@ bool FastSlam::move_by(const Observation& observation, int landmark, fastslam::I
   return moves_ != moves;
 }
 
-int FastSlam::matched_landmark(std::size_t index) const { return *index_.find(innovations_[index].landmark); }
+int FastSlam::matched_landmark(std::size_t index) const { return matched_[index]; }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
 double FastSlam::evidence(int landmark) const {
@@ -419,7 +451,11 @@ void FastSlam::resample() {
 
 void FastSlam::add(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (innovations_[i].outcome != Outcome::kAdded) continue;
+    if (innovations_[i].outcome != Outcome::kAdded || contested_[i] != 0) continue;
+    if (!observations[i].id) {
+      innovations_[i].landmark = add_unnamed(observations[i]);
+      continue;
+    }
     const SeenLandmark z = seen(observations[i], std::numeric_limits<double>::infinity());
     const bool guess = options_.init == LandmarkStart::kGuess && z.kind != SightingKind::kRangeBearing;
     const fastslam::FirstForm first = guess ? fastslam::FirstForm{} : fastslam::first_form(z, sensor_);
@@ -477,7 +513,7 @@ LandmarkEstimate FastSlam::landmark(int index) const {
 
 Snapshot FastSlam::snapshot() const {
   Snapshot snapshot{{}, pose(), {}};
-  for (int k = 0; k < store_.size(); ++k) snapshot.landmarks.push_back(landmark(k));
+  for (const int k : confirmed()) snapshot.landmarks.push_back(landmark(k));
   return snapshot;
 }
 
@@ -487,14 +523,15 @@ MapState FastSlam::save() const {
   fastslam::ParticleBlocks blocks(particles_.count());
   const Pose2 T_world_robot = fastslam::estimate(particles_, blocks).T_world_robot;
   MapState map;
-  map.landmarks.resize(2 * store_.size());
-  for (int k = 0; k < store_.size(); ++k) {
-    const LandmarkEstimate estimate = landmark(k);
+  const std::vector<int> saved = confirmed();
+  map.landmarks.resize(2 * static_cast<Eigen::Index>(saved.size()));
+  for (std::size_t k = 0; k < saved.size(); ++k) {
+    const LandmarkEstimate estimate = landmark(saved[k]);
     map.ids.push_back(estimate.id);
     map.observations.push_back(estimate.observations);
-    map.landmarks.segment<2>(2 * k) = estimate.position_m.head<2>();
+    map.landmarks.segment<2>(2 * static_cast<Eigen::Index>(k)) = estimate.position_m.head<2>();
   }
-  Eigen::MatrixXd P = joint_covariance(T_world_robot, map.landmarks);
+  Eigen::MatrixXd P = joint_covariance(T_world_robot, saved, map.landmarks);
 
   // The robot's rows follow the motion that the particles have not made yet.
   const Eigen::Matrix3d F = compose_jacobian_left(T_world_robot, pending_.increment);
@@ -507,15 +544,22 @@ MapState FastSlam::save() const {
   return map;
 }
 
-Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot,
+std::vector<int> FastSlam::confirmed() const {
+  std::vector<int> confirmed;
+  for (int k = 0; k < store_.size(); ++k)
+    if (landmarks_[static_cast<std::size_t>(k)].confirmed) confirmed.push_back(k);
+  return confirmed;
+}
+
+Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot, const std::vector<int>& indices,
                                            const Eigen::VectorXd& landmarks) const {
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3 + landmarks.size(), 3 + landmarks.size());
   Eigen::VectorXd deviation(P.rows());
   for (int i = 0; i < particles_.count(); ++i) {
     const double w = particles_.weights()[static_cast<std::size_t>(i)];
     deviation.head<3>() = difference(particles_.pose(i), T_world_robot);
-    for (int k = 0; k < store_.size(); ++k) {
-      const fastslam::PointGaussian m = store_.at(k, i);
+    for (Eigen::Index k = 0; 2 * k < landmarks.size(); ++k) {
+      const fastslam::PointGaussian m = store_.at(indices[static_cast<std::size_t>(k)], i);
       deviation.segment<2>(3 + 2 * k) = m.mean - landmarks.segment<2>(2 * k);
       P.block<2, 2>(3 + 2 * k, 3 + 2 * k) += w * m.covariance;
     }

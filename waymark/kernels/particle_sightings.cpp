@@ -195,25 +195,6 @@ struct Sums {
   }
 };
 
-// What a sensor sees from a robot that moves by an increment, it sees from before if it sits at the end of
-// it.
-HWY_INLINE Sighting carried(const Sighting& sighting, const Increment& d) {
-  Sighting s = sighting;
-  const float c = std::cos(d.t);
-  const float sine = std::sin(d.t);
-  const auto turn = [c, sine](float& x, float& y) HWY_ATTR {
-    const float turned = c * x - sine * y;
-    y = sine * x + c * y;
-    x = turned;
-  };
-  turn(s.mount.x, s.mount.y);
-  turn(s.mount.cos_yaw, s.mount.sin_yaw);
-  turn(s.seen.cos_bearing, s.seen.sin_bearing);
-  s.mount.x += d.x;
-  s.mount.y += d.y;
-  return s;
-}
-
 template <class T, class Way>
 HWY_INLINE InnovationSums compare_range(const Sighting& sighting, const Increment& increment,
                                         const PoseColumns& before, const About& about, const double* weight,

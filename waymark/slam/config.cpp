@@ -50,6 +50,7 @@ Schema describe(Config& config) {
   describe(schema, config.sensor);
   describe(schema, config.pipeline);
   describe(schema, config.gate);
+  describe(schema, config.association);
   describe(schema, config.ekf);
   describe(schema, config.fastslam);
   sim::describe(schema, config.sim);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "waymark/association/association_options.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/core/config.hpp"
 #include "waymark/core/source.hpp"
@@ -38,6 +39,7 @@ struct Config {
   LandmarkSensor sensor;
   PipelineOptions pipeline;
   GateOptions gate;
+  AssociationOptions association;
   EkfOptions ekf;
   FastSlamOptions fastslam;
   sim::SimOptions sim;

@@ -16,8 +16,9 @@ Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
       if (config.associate == Association::kMl && config.observe != Observe::kRangeBearing)
         return Error{
             "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
-      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, config.sensor,
-                                                                config.seed, config.threads));
+      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
+          config.fastslam, config.gate, config.sensor, config.seed, config.threads, PoseEstimate{},
+          config.associate == Association::kMl ? std::optional(config.association) : std::nullopt));
   }
   return Error{"filter: unknown"};
 }
