@@ -200,14 +200,16 @@ Result<void> read_landmarks(const fs::path& file, LogInfo& info) {
   return {};
 }
 
-/// Whether some row says what it is a sighting of, or there is none. Reads as far as it takes to find one.
+/// Whether some sighting says what it is of, or there is none. Reads as far as it takes to find one.
 bool has_identities(const fs::path& file) {
   if (!fs::exists(file)) return true;
   auto table = TextTable::open(file, layout_of(log_format::kObservations));
   if (!table) return true;
   bool any = false;
-  for (; table->next(); any = true)
+  while (table->next()) {
     if (!table->is_empty(1)) return true;
+    for (const int column : {2, 3, 4, 5}) any = any || !table->is_empty(column);
+  }
   return !any;
 }
 
