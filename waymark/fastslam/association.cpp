@@ -70,7 +70,7 @@ void Association::split(const LandmarkStore& store) {
 }
 
 /// Bit c of `open` is set while choice c can still be taken.
-void Association::choose(const LandmarkStore& store, std::size_t i) {
+void Association::choose(const LandmarkStore& store, std::size_t particle) {
   std::array<double, kMostChoices> scores{};
   std::uint32_t open = 0;
   for (std::size_t c = 0; c < choices_.size(); ++c) {
@@ -78,16 +78,16 @@ void Association::choose(const LandmarkStore& store, std::size_t i) {
     const bool known = choice.landmark != ExclusiveMatch::kNothing;
     const float* existence = known ? store.existence(choice.landmark) : nullptr;
     // Being of nothing known scores 0: that it is left when nothing scores more.
-    if (known) scores[c] = static_cast<double>(choice.column[i]) + choice.log_odds - choice.log_others;
-    const bool has = existence == nullptr || existence[i] >= 0.0F;
+    if (known) scores[c] = static_cast<double>(choice.column[particle]) + choice.log_odds - choice.log_others;
+    const bool has = existence == nullptr || existence[particle] >= 0.0F;
     if (has && (!known || scores[c] > 0.0)) open |= 1U << c;
-    choice.column[i] = 0.0F;
+    choice.column[particle] = 0.0F;
   }
   while (open != 0) {
     std::size_t best = kMostChoices;
     for (std::size_t c = 0; c < choices_.size(); ++c)
       if ((open >> c & 1U) != 0 && (best == kMostChoices || scores[c] > scores[best])) best = c;
-    choices_[best].column[i] = 1.0F;
+    choices_[best].column[particle] = 1.0F;
     for (std::size_t c = 0; c < choices_.size(); ++c) {
       const bool same_landmark =
           choices_[c].landmark == choices_[best].landmark && choices_[c].landmark != ExclusiveMatch::kNothing;
