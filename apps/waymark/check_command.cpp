@@ -132,6 +132,7 @@ std::string advice(const Request& request, const Contents& contents) {
     return "nothing can be run: there is no odometry (wheels.csv, velocity.csv or odometry.csv)";
   if (!has("observations")) return "only dead reckoning: there are no observations";
   std::string command = "waymark run " + request.input + " -o out";
+  if (contents.sightings.empty() && contents.unidentified > 0) command += " --filter fastslam";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
   return command;
 }

@@ -72,7 +72,7 @@ void add_run(CLI::App& app, Work& work) {
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
   command->add_option("--observe", request->observe, "part of the observations to use: range-bearing")
       ->type_name("KIND");
-  command->add_option("--associate", request->associate, "how observations find their landmarks: known")
+  command->add_option("--associate", request->associate, "known: by identity; ml: also without one")
       ->type_name("HOW");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");

@@ -74,8 +74,8 @@ TEST(MapError, MatchesNearestWhenNamesMeanNothing) {
 }
 
 TEST(MatchNearest, IsOneToOneAndNearestFirst) {
-  const std::vector<LandmarkEstimate> map{seen(1, 0.6, 0), seen(2, 0.1, 0), seen(3, 20, 20)};
-  const std::vector<TrueLandmark> survey{surveyed(1, 0, 0), surveyed(2, 1.5, 0)};
+  const std::vector<LandmarkEstimate> map{seen(1, 0.4, 0), seen(2, 0.1, 0), seen(3, 20, 20)};
+  const std::vector<TrueLandmark> survey{surveyed(1, 0, 0), surveyed(2, 0.85, 0)};
   const auto matches = match_nearest(map, survey, {});
   ASSERT_EQ(matches.size(), 2u);
   EXPECT_EQ(matches[0].estimated, 1u);

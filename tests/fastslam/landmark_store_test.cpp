@@ -19,13 +19,14 @@ using kernels::LandmarkView;
 /// All numbers of one landmark of one particle: those of its hypotheses, and its anchor.
 using DeepLandmark = std::vector<float>;
 
-std::vector<float*> columns_of(const LandmarkView& view) {
+std::vector<float*> columns_of(const LandmarkView& view, float* existence = nullptr) {
   std::vector<float*> columns;
   for (std::size_t k = 0; k < view.mode_count; ++k) {
     const auto& [a, b, aa, ab, bb] = view.modes[k].gaussian;
     columns.insert(columns.end(), {a, b, aa, ab, bb});
     if (view.modes[k].log_weight != nullptr) columns.push_back(view.modes[k].log_weight);
   }
+  if (existence != nullptr) columns.push_back(existence);
   if (view.form != LandmarkForm::kPoint) columns.insert(columns.end(), {view.anchor_x, view.anchor_y});
   return columns;
 }
@@ -47,7 +48,8 @@ class TwinMaps {
     const LandmarkForm form = chance < 0.5   ? LandmarkForm::kPoint
                               : chance < 0.8 ? LandmarkForm::kRay
                                              : LandmarkForm::kRing;
-    const int landmark = store_.add(form, {0.0, 0.0}, form == LandmarkForm::kRing ? 3 : 1);
+    const int landmark =
+        store_.add(form, {0.0, 0.0}, form == LandmarkForm::kRing ? 3 : 1, random_.uniform() < 0.5);
     for (auto& map : maps_) map.emplace_back();
     write(landmark);
   }
@@ -61,6 +63,16 @@ class TwinMaps {
       store_.become_point(landmark);
     }
     write(landmark);
+  }
+
+  /// The last one takes the place of the removed one.
+  void remove() {
+    const int landmark = any_landmark();
+    store_.remove(landmark);
+    for (auto& map : maps_) {
+      map[static_cast<std::size_t>(landmark)] = map.back();
+      map.pop_back();
+    }
   }
 
   /// To as many particles as there are, or to fewer, or back to all.
@@ -77,8 +89,10 @@ class TwinMaps {
 
   void live_one_step() {
     const double chance = random_.uniform();
-    if (store_.size() == 0 || chance < 0.03)
+    if (store_.size() == 0 || chance < 0.04)
       add();
+    else if (chance < 0.05)
+      remove();
     else if (chance < 0.5)
       update();
     else
@@ -96,7 +110,7 @@ class TwinMaps {
   [[nodiscard]] bool all_columns_equal() {
     for (int k = 0; k < store_.size(); ++k) {
       store_.touch(k);
-      const auto columns = columns_of(store_.view(k, {0.0, 0.0}));
+      const auto columns = columns_of(store_.view(k, {0.0, 0.0}), store_.existence(k));
       for (std::size_t i = 0; i < alive_; ++i)
         for (std::size_t c = 0; c < columns.size(); ++c)
           if (columns[c][i] != deep(i, k)[c]) return false;
@@ -136,7 +150,7 @@ class TwinMaps {
 
   /// New numbers for all particles.
   void write(int landmark) {
-    const auto columns = columns_of(store_.view(landmark, {0.0, 0.0}));
+    const auto columns = columns_of(store_.view(landmark, {0.0, 0.0}), store_.existence(landmark));
     for (std::size_t i = 0; i < maps_.size(); ++i) {
       DeepLandmark& numbers = maps_[i][static_cast<std::size_t>(landmark)];
       numbers.resize(columns.size());
@@ -210,6 +224,20 @@ TEST(LandmarkStore, AllocatesOnlyWhenALandmarkIsAdded) {
     if (step == 100) store.become_point(1);
   }
   EXPECT_EQ(count.allocations(), 0);
+}
+
+TEST(LandmarkStore, LandmarksThatComeAndGoAllocateNothing) {
+  ParticleBlocks blocks(100);
+  LandmarkStore store(blocks);
+  for (int k = 0; k < 20; ++k) store.add(LandmarkForm::kPoint, {0.0, 0.0}, 1, true);
+  store.remove(3);
+  const test::AllocationCount count;
+  for (int k = 0; k < 100; ++k) {
+    store.add(LandmarkForm::kPoint, {0.0, 0.0}, 1, true);
+    store.remove(k % 20);
+  }
+  EXPECT_EQ(count.allocations(), 0);
+  EXPECT_EQ(store.size(), 19);
 }
 
 /// How many landmarks were moved by resampling alone, when each step looks at one landmark after another.

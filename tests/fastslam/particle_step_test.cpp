@@ -1,6 +1,7 @@
 #include "waymark/fastslam/particle_step.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -157,6 +158,31 @@ TEST(Step, HalfTheEvidenceIsHalfTheLogWeight) {
   step(whole.set, {}, {0.0, 0.0}, {&sighting, 1}, kKey, whole.blocks);
   step(half.set, {}, {0.0, 0.0}, {&weak, 1}, kKey, half.blocks);
   EXPECT_DOUBLE_EQ(half.set.log_weights()[3], 0.5 * whole.set.log_weights()[3]);
+}
+
+TEST(Step, ASightingIsForThoseThatTakeItAlone) {
+  constexpr int kCount = 300;
+  std::vector<float> takers(kCount);
+  for (int i = 0; i < kCount; i += 3) takers[static_cast<std::size_t>(i)] = 1.0F;
+  const Motion motion{{0.3, 0.1, 0.2}, Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal()};
+  for (const bool shapes : {false, true}) {
+    Scene nobody(kCount);
+    Scene all(kCount);
+    Scene some(kCount);
+    std::vector sightings{some.sighting(shapes)};
+    sightings[0].takers = takers.data();
+    step(nobody.set, motion, {0.0, 0.0}, {}, kKey, nobody.blocks);
+    step(all.set, motion, {0.0, 0.0}, std::vector{all.sighting(shapes)}, kKey, all.blocks);
+    step(some.set, motion, {0.0, 0.0}, sightings, kKey, some.blocks);
+    for (int i = 0; i < kCount; ++i) {
+      Scene& same = takers[static_cast<std::size_t>(i)] != 0.0F ? all : nobody;
+      EXPECT_EQ(some.set.pose(i), same.set.pose(i)) << i;
+      EXPECT_EQ(some.set.log_weights()[static_cast<std::size_t>(i)],
+                same.set.log_weights()[static_cast<std::size_t>(i)]);
+      EXPECT_EQ(some.store.at(0, i).mean, same.store.at(0, i).mean);
+      EXPECT_EQ(some.store.at(0, i).covariance, same.store.at(0, i).covariance);
+    }
+  }
 }
 
 TEST(Step, SameBitsOnAnyNumberOfThreads) {

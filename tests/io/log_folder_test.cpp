@@ -65,6 +65,21 @@ TEST(LogFolder, EmptyCellsDecideWhatWasMeasured) {
   EXPECT_EQ(std::get<Bearing>(seen[2].value).bearing_rad, 0.25);
 }
 
+TEST(LogFolder, SaysWhetherAnySightingHasAnIdentity) {
+  const std::string head = "stamp_s,id,range_m,bearing_rad\n";
+  const auto has_identities = [&](const std::string& rows) {
+    const TempFolder folder;
+    folder.write("log.yaml", kVersionLine);
+    folder.write("observations.csv", head + rows);
+    const auto log = open_log_folder(folder.path());
+    return log.ok() && (*log)->info().identities;
+  };
+  EXPECT_TRUE(has_identities("1,,2,0\n2,7,2,0\n"));
+  EXPECT_FALSE(has_identities("1,,2,0\n2,,2,0\n"));
+  EXPECT_TRUE(has_identities("1,,,\n")) << "nothing was seen";
+  EXPECT_TRUE(has_identities(""));
+}
+
 TEST(LogFolder, ReadsPixelsAloneOrBesideRanges) {
   const auto pixels = read_observations("1,3,320.5,-1\n", "stamp_s,id,u_px,v_px");
   ASSERT_EQ(pixels.size(), 1U);

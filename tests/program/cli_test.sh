@@ -38,6 +38,8 @@ refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
 refuses 2 'observe' run sim:square -o o --observe bearing
+refuses 2 'filter=fastslam' run sim:forest -o o
+refuses 2 'known or ml' run sim:forest -o o --associate jcbb
 refuses 2 'nowhere.yaml' run sim:square -o o --config nowhere.yaml
 printf 'ekf:\n  capacity: -3\n' >bad.yaml
 refuses 2 'bad.yaml:2' config --validate bad.yaml
@@ -56,6 +58,11 @@ refuses 2 'x.mat: is no MATLAB file' run x.mat -o o
 does sim square -o log --seed 3
 does check log
 grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to run'
+does check sim:forest
+grep -q 'run: waymark run sim:forest -o out --filter fastslam' out.txt || fail 'check advises a filter that needs identities'
+does sim forest -o forest --set sim.laps=1
+does run forest --filter fastslam -o unnamed --json
+grep -q '"associate": "ml"' out.txt || fail 'a log folder without identities is not associated'
 does run log -o whole
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"

@@ -143,6 +143,21 @@ TEST(SimLandmarkSensor, ReportsFalseSightingsAsOftenAsStated) {
   }
 }
 
+TEST(SimLandmarkSensor, ClutterAccompaniesWhatIsReportedWithoutIdentity) {
+  SensorOptions options;
+  options.clutter_probability = 0.3;
+  options.drop_probability = 0.5;
+  const std::vector landmarks{landmark(0, 2.0, 0.0), landmark(1, 3.0, 0.0), landmark(2, -2.0, 0.0)};
+  const auto named = [](const Observations& seen) {
+    return static_cast<double>(std::ranges::count_if(seen, [](const auto& z) { return z.id.has_value(); }));
+  };
+  const auto clutter = [&](const Observations& seen) {
+    return static_cast<double>(seen.size()) - named(seen);
+  };
+  EXPECT_NEAR(mean(options, landmarks, named), 1.0, 2.0 * band(0.5));
+  EXPECT_NEAR(mean(options, landmarks, clutter), 0.3, 2.0 * band(0.15));
+}
+
 TEST(SimLandmarkSensor, FalseSightingInAnEmptyWorldHasANewIdentity) {
   SensorOptions options;
   options.false_probability = 1.0;

@@ -301,6 +301,31 @@ TEST(Simulation, StudyIsTheStudy) {
   EXPECT_GT(log.all<Observations>().size(), 1000u);
 }
 
+TEST(Simulation, ForestHidesIdentitiesAndIsTheSameWithThem) {
+  SimOptions options = *scenario("forest");
+  const Log hidden = simulate(options);
+  options.sensor.identities = true;
+  const Log told = simulate(options);
+  EXPECT_FALSE(hidden.info.identities);
+  EXPECT_TRUE(told.info.identities);
+  EXPECT_EQ(hidden.info.landmarks.size(), 100u);
+  const auto hidden_scans = hidden.all<Observations>();
+  const auto told_scans = told.all<Observations>();
+  ASSERT_EQ(hidden_scans.size(), told_scans.size());
+  int named = 0;
+  int clutter = 0;
+  for (std::size_t i = 0; i < told_scans.size(); ++i) {
+    ASSERT_EQ(hidden_scans[i].second.size(), told_scans[i].second.size());
+    for (std::size_t k = 0; k < told_scans[i].second.size(); ++k) {
+      const auto& seen = std::get<RangeBearing>(hidden_scans[i].second[k].value);
+      EXPECT_EQ(seen.range_m, std::get<RangeBearing>(told_scans[i].second[k].value).range_m);
+      EXPECT_FALSE(hidden_scans[i].second[k].id);
+      ++(told_scans[i].second[k].id ? named : clutter);
+    }
+  }
+  EXPECT_NEAR(clutter, 0.05 * named, 5.0 * std::sqrt(0.05 * named));
+}
+
 TEST(Simulation, SameSeedGivesTheSameBits) {
   SimOptions options = *scenario("study");
   options.sensor.drop_probability = options.sensor.false_probability = options.sensor.misread_probability =

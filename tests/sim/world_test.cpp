@@ -1,5 +1,7 @@
 #include "waymark/sim/world.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -27,6 +29,26 @@ TEST(World, LandmarksStandOnBothSides) {
   }
   EXPECT_GT(inside, 0);
   EXPECT_LT(inside, 24);
+}
+
+TEST(World, AForestStandsAllOverItsSquareButNotInTheWay) {
+  const WorldOptions options{
+      .landmarks = 400, .spread = Spread::kArea, .area_m = 30.0, .min_offset_m = 0.5, .separation_m = 0.5};
+  const auto landmarks = place_landmarks(options, square(), 1);
+  ASSERT_EQ(landmarks.size(), 400u);
+  std::array<int, 4> quarters{};
+  for (const TrueLandmark& landmark : landmarks) {
+    EXPECT_LE(std::max(std::abs(landmark.x_m), std::abs(landmark.y_m)), 15.0);
+    EXPECT_GE(distance_m(square(), {landmark.x_m, landmark.y_m}), 0.5);
+    ++quarters[(landmark.x_m > 0.0 ? 1U : 0U) + (landmark.y_m > 0.0 ? 2U : 0U)];
+  }
+  // Five standard deviations of a quarter of 400.
+  for (const int count : quarters) EXPECT_NEAR(count, 100, 5.0 * std::sqrt(400 * 0.25 * 0.75));
+}
+
+TEST(World, ASquareThatThePathFillsStillTakesLandmarks) {
+  const WorldOptions options{.landmarks = 50, .spread = Spread::kArea, .area_m = 2.0, .min_offset_m = 20.0};
+  EXPECT_EQ(place_landmarks(options, square(), 1).size(), 50u);
 }
 
 TEST(World, LandmarksAreNumberedFromZero) {

@@ -61,6 +61,16 @@ TEST(Config, TheUserOutranksTheLogAndTheLogTheDefaults) {
   EXPECT_EQ(changed->config.sensor.bearing_sigma_deg, 3.0);
 }
 
+TEST(Config, ALogWithoutIdentitiesAsksForAssociationUnlessTheUserSaysOtherwise) {
+  const auto associate = [](const std::vector<std::string>& assignments) {
+    const auto opened = open_input("sim:forest", {{}, assignments});
+    return opened.ok() ? std::optional(opened->config.associate) : std::nullopt;
+  };
+  EXPECT_EQ(associate({}), Association::kMl);
+  EXPECT_EQ(associate({"sim.identities=true"}), Association::kKnown);
+  EXPECT_EQ(associate({"associate=known"}), Association::kKnown);
+}
+
 TEST(Config, AnUnknownScenarioNamesTheNearest) {
   const auto opened = open_input("sim:sqare", {});
   ASSERT_FALSE(opened.ok());

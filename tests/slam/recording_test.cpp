@@ -76,6 +76,15 @@ TEST(Recording, WheelsOfUnknownSizeEndTheRunAndNameTheKey) {
   EXPECT_NE(run->error->message.find("wheels.track_m"), std::string::npos);
 }
 
+TEST(MakeFilter, RefusesAnAssociationThatDoesNotFit) {
+  const auto ekf = record_study({"associate=ml"});
+  ASSERT_FALSE(ekf.ok());
+  EXPECT_NE(ekf.error().message.find("filter=fastslam"), std::string::npos) << ekf.error().message;
+  const auto range = record_study({"associate=ml", "filter=fastslam", "observe=range"});
+  ASSERT_FALSE(range.ok());
+  EXPECT_NE(range.error().message.find("associate=known"), std::string::npos) << range.error().message;
+}
+
 TEST(MakeFilter, RefusesAModeThatTheFilterDoesNotHave) {
   const auto run = record_study({"observe=bearing"});
   ASSERT_FALSE(run.ok());

@@ -26,6 +26,7 @@ struct LogInfo {
   /// below what the user says.
   std::vector<std::pair<std::string, std::string>> settings;
   std::vector<TrueLandmark> landmarks;
+  bool identities = true;  ///< some sighting says which landmark it is of
   std::optional<Eigen::Vector2d>
       truth_sensor_m;  ///< where on the robot the truth was measured; empty: its origin
 };

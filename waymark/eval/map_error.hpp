@@ -32,12 +32,12 @@ struct LandmarkMatch {
 [[nodiscard]] std::vector<LandmarkMatch> match_by_number(std::span<const LandmarkEstimate> map,
                                                          std::span<const TrueLandmark> survey);
 
-/// One to one, nearest first, no further than `max_distance_m` apart on the plane after `T_truth_estimate`.
-/// O(n m).
+/// One to one, nearest first, no further than `max_distance_m` apart on the plane after `T_truth_estimate`:
+/// landmarks may stand a metre apart. O(n m).
 [[nodiscard]] std::vector<LandmarkMatch> match_nearest(std::span<const LandmarkEstimate> map,
                                                        std::span<const TrueLandmark> survey,
                                                        const Pose2& T_truth_estimate,
-                                                       double max_distance_m = 1.0);
+                                                       double max_distance_m = 0.5);
 
 /// Estimate minus survey after `T_truth_estimate`; z counts only for landmarks that have a height (a z or its
 /// variance).

@@ -127,6 +127,12 @@ kernels::SensorMount mount_of(const LandmarkSensor& sensor) {
           static_cast<float>(sensor.min_range_m)};
 }
 
+kernels::View view_of(const LandmarkSensor& sensor, const kernels::SensorMount& mount) {
+  const Eigen::Matrix2d R = noise_covariance(sensor, RangeBearing{sensor.max_range_m, 0.0});
+  return {mount, static_cast<float>(sensor.min_range_m), static_cast<float>(sensor.max_range_m),
+          static_cast<float>(R(0, 0)), static_cast<float>(R(1, 1))};
+}
+
 }  // namespace
 
 void describe(Schema& schema, FastSlamOptions& o) {
@@ -154,7 +160,8 @@ void describe(Schema& schema, FastSlamOptions& o) {
 }
 
 FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
-                   std::uint64_t seed, int threads, const PoseEstimate& initial)
+                   std::uint64_t seed, int threads, const PoseEstimate& initial,
+                   const std::optional<AssociationOptions>& association)
     : options_(options),
       gate_(gate),
       sensor_(sensor),
@@ -169,7 +176,12 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       edge_scans_(scans_to_tell_an_edge(sensor)),
       ancestors_(particle_blocks_.capacity()),
       index_(static_cast<std::size_t>(options.capacity)),
+      nobody_(particle_blocks_.capacity()),
       estimate_(initial) {
+  if (association) {
+    association_.emplace(AssociationModel(*association, sensor), particle_blocks_);
+    view_ = view_of(sensor, mount_);
+  }
   if (!initial.covariance.isZero(0.0))
     fastslam::step(particles_, spread_of(initial), initial.T_world_robot.position(), {},
                    {seed_, StreamPurpose::kInitialisation, 0}, particle_blocks_);
@@ -205,7 +217,7 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   associate(observations);
   correction_ = {innovations_, {}};
   timer.finish(kAssociate);
-  if (!any(Outcome::kMatched) && !any(Outcome::kAdded)) return correction_;
+  if (!any(Outcome::kMatched) && !any(Outcome::kAdded) && !any_contested()) return correction_;
 
   compare(observations);
   timer.finish(kCompare);
@@ -216,10 +228,16 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   timer.finish(kEstimate);
   miss();
   refine();
+  if (association_) {
+    update_existence();
+    forget_ghosts();
+    add_choices(observations);
+  }
   resample();
   timer.finish(kResample);
   add(observations);
   timer.finish(kAdd);
+  correction_ = {innovations_, removed_};
   moved_ = false;
   return correction_;
 }
@@ -231,13 +249,26 @@ bool FastSlam::any(Outcome outcome) const {
 void FastSlam::associate(std::span<const Observation> observations) {
   innovations_.assign(observations.size(), {});
   moments_.assign(observations.size(), {});
+  matched_.assign(observations.size(), -1);
+  contested_.assign(observations.size(), 0);
+  removed_.clear();
   int room = options_.capacity - store_.size();
   for (std::size_t i = 0; i < observations.size(); ++i) {
     Innovation& innovation = innovations_[i];
     if (observations[i].id) innovation.landmark = *observations[i].id;
     innovation.outcome = screen(i, observations[i]);
     if (innovation.outcome == Outcome::kAdded && room-- <= 0) innovation.outcome = Outcome::kMapFull;
+    if (innovation.outcome == Outcome::kMatched) take_match(i, *index_.find(innovation.landmark));
   }
+  if (association_) match_unnamed(observations);
+}
+
+void FastSlam::take_match(std::size_t index, int landmark) {
+  Landmark& matched = landmarks_[static_cast<std::size_t>(landmark)];
+  matched_[index] = landmark;
+  matched.claimed_at_scan = scan_;
+  innovations_[index].landmark = matched.id;
+  innovations_[index].outcome = Outcome::kMatched;
 }
 
 /// What is to be done with an observation as far as its identity goes.
@@ -300,12 +331,10 @@ void FastSlam::compare(std::span<const Observation> observations) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     // What was compared before another sighting moved the particles is compared again.
     if (moves_ != moves) moments_[i] = compare(observations[i], matched_landmark(i));
-    const int landmark = matched_landmark(i);
-    accept(sighting(observations[i], landmark), landmark, news(landmark), moments_[i]);
+    accept(observations[i], matched_landmark(i), moments_[i]);
   }
   for (const EdgeSighting& edge : edges_) accept(edge);
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (innovations_[i].outcome == Outcome::kMatched) count_sighting(matched_landmark(i), observations[i]);
+  if (association_) settle_contested(observations);
 }
 
 fastslam::InnovationMoments FastSlam::compare(const Observation& observation, int landmark) {
@@ -365,6 +394,13 @@ void FastSlam::widen(std::span<const Observation> observations) {
     for (std::size_t i = 0; i < observations.size(); ++i)
       if (innovations_[i].outcome == Outcome::kGated) judge(observations[i], i);
   }
+}
+
+void FastSlam::accept(const Observation& observation, int landmark,
+                      const fastslam::InnovationMoments& moments) {
+  accept(sighting(observation, landmark), landmark, news(landmark), moments);
+  count_sighting(landmark);
+  landmarks_[static_cast<std::size_t>(landmark)].range_m = range_alone_m(observation);
 }
 
 void FastSlam::accept(const kernels::Sighting& sighting, int landmark, double news,
@@ -447,7 +483,7 @@ void FastSlam::accept(const EdgeSighting& edge) {
   if (nis <= gate_.threshold(1)) accept(sighting, edge.landmark, 1.0, moments);
 }
 
-int FastSlam::matched_landmark(std::size_t index) const { return *index_.find(innovations_[index].landmark); }
+int FastSlam::matched_landmark(std::size_t index) const { return matched_[index]; }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
 double FastSlam::news(int landmark) const {
@@ -458,12 +494,11 @@ double FastSlam::way_since_m(int landmark) const {
   return way_m_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_way_m;
 }
 
-void FastSlam::count_sighting(int landmark, const Observation& observation) {
+void FastSlam::count_sighting(int landmark) {
   Landmark& sighted = landmarks_[static_cast<std::size_t>(landmark)];
   ++sighted.observations;
   sighted.seen_at_way_m = way_m_;
   sighted.seen_at_scan = scan_;
-  sighted.range_m = range_alone_m(observation);
 }
 
 void FastSlam::weigh() {
@@ -489,8 +524,8 @@ void FastSlam::miss(int landmark) {
   particle_blocks_.run([&](std::size_t begin, std::size_t end) {
     fastslam::BlockScratch scratch;
     const kernels::ParticleRange range{begin, end - begin};
-    kernels::miss_landmark(sighting, sensor_.detection_probability,
-                           fastslam::load_sensors(particles_, mount_, origin_m, range, scratch), range);
+    kernels::miss_modes(sighting, sensor_.detection_probability,
+                        fastslam::load_sensors(particles_, mount_, origin_m, range, scratch), range);
   });
 }
 
@@ -523,7 +558,11 @@ void FastSlam::resample() {
 
 void FastSlam::add(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (innovations_[i].outcome != Outcome::kAdded) continue;
+    if (innovations_[i].outcome != Outcome::kAdded || contested_[i] != 0) continue;
+    if (!observations[i].id) {
+      innovations_[i].landmark = add_unnamed(observations[i]);
+      continue;
+    }
     const SeenLandmark z = seen(observations[i], std::numeric_limits<double>::infinity());
     const bool guess = options_.init == LandmarkStart::kGuess && z.kind != SightingKind::kRangeBearing;
     const fastslam::FirstForm first =
@@ -537,7 +576,7 @@ void FastSlam::add(std::span<const Observation> observations) {
     else
       place(landmark, z, first.guess);
     index_.assign(innovations_[i].landmark, landmark);
-    landmarks_.push_back({innovations_[i].landmark, 1, way_m_, scan_, range_alone_m(observations[i])});
+    landmarks_.push_back({innovations_[i].landmark, 1, way_m_, scan_, scan_, range_alone_m(observations[i])});
   }
 }
 
@@ -582,7 +621,7 @@ LandmarkEstimate FastSlam::landmark(int index) const {
 
 Snapshot FastSlam::snapshot() const {
   Snapshot snapshot{{}, pose(), {}};
-  for (int k = 0; k < store_.size(); ++k) snapshot.landmarks.push_back(landmark(k));
+  for (const int k : confirmed()) snapshot.landmarks.push_back(landmark(k));
   return snapshot;
 }
 
@@ -592,14 +631,15 @@ MapState FastSlam::save() const {
   fastslam::ParticleBlocks blocks(particles_.count());
   const Pose2 T_world_robot = fastslam::estimate(particles_, blocks).T_world_robot;
   MapState map;
-  map.landmarks.resize(2 * store_.size());
-  for (int k = 0; k < store_.size(); ++k) {
-    const LandmarkEstimate estimate = landmark(k);
+  const std::vector<int> saved = confirmed();
+  map.landmarks.resize(2 * static_cast<Eigen::Index>(saved.size()));
+  for (std::size_t k = 0; k < saved.size(); ++k) {
+    const LandmarkEstimate estimate = landmark(saved[k]);
     map.ids.push_back(estimate.id);
     map.observations.push_back(estimate.observations);
-    map.landmarks.segment<2>(2 * k) = estimate.position_m.head<2>();
+    map.landmarks.segment<2>(2 * static_cast<Eigen::Index>(k)) = estimate.position_m.head<2>();
   }
-  Eigen::MatrixXd P = joint_covariance(T_world_robot, map.landmarks);
+  Eigen::MatrixXd P = joint_covariance(T_world_robot, saved, map.landmarks);
 
   // The robot's rows follow the motion that the particles have not made yet.
   const Eigen::Matrix3d F = compose_jacobian_left(T_world_robot, pending_.increment);
@@ -612,15 +652,22 @@ MapState FastSlam::save() const {
   return map;
 }
 
-Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot,
+std::vector<int> FastSlam::confirmed() const {
+  std::vector<int> confirmed;
+  for (int k = 0; k < store_.size(); ++k)
+    if (landmarks_[static_cast<std::size_t>(k)].confirmed) confirmed.push_back(k);
+  return confirmed;
+}
+
+Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot, const std::vector<int>& indices,
                                            const Eigen::VectorXd& landmarks) const {
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3 + landmarks.size(), 3 + landmarks.size());
   Eigen::VectorXd deviation(P.rows());
   for (int i = 0; i < particles_.count(); ++i) {
     const double w = particles_.weights()[static_cast<std::size_t>(i)];
     deviation.head<3>() = difference(particles_.pose(i), T_world_robot);
-    for (int k = 0; k < store_.size(); ++k) {
-      const fastslam::PointGaussian m = store_.at(k, i);
+    for (Eigen::Index k = 0; 2 * k < landmarks.size(); ++k) {
+      const fastslam::PointGaussian m = store_.at(indices[static_cast<std::size_t>(k)], i);
       deviation.segment<2>(3 + 2 * k) = m.mean - landmarks.segment<2>(2 * k);
       P.block<2, 2>(3 + 2 * k, 3 + 2 * k) += w * m.covariance;
     }

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "waymark/association/association_options.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/association/id_index.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/fastslam/association.hpp"
 #include "waymark/fastslam/ensemble_move.hpp"
 #include "waymark/fastslam/gate_sample.hpp"
 #include "waymark/fastslam/landmark_forms.hpp"
@@ -66,9 +69,11 @@ void describe(Schema& schema, FastSlamOptions& options);
 /// * A robot that stands still is neither predicted nor resampled.
 class FastSlam final : public Filter {
  public:
-  /// `initial` is where the robot is believed to start. Same seed, same bits, whatever the number of threads.
+  /// `initial` is where the robot is believed to start. With `association` sightings need no identities, but
+  /// must be by range and bearing where they have none. Same seed, same bits, whatever the number of threads.
   FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
-           std::uint64_t seed, int threads = 1, const PoseEstimate& initial = {});
+           std::uint64_t seed, int threads = 1, const PoseEstimate& initial = {},
+           const std::optional<AssociationOptions>& association = std::nullopt);
 
   /// O(1); a motion that is not finite is ignored.
   void predict(const Motion& motion) override;
@@ -85,6 +90,8 @@ class FastSlam final : public Filter {
   [[nodiscard]] std::int64_t moves() const { return moves_; }
   /// How often the robot must have slipped far beyond its odometry: see correct().
   [[nodiscard]] std::int64_t slips() const { return slips_; }
+  /// How many unnamed sightings the particles did not agree on.
+  [[nodiscard]] std::int64_t splits() const { return splits_; }
 
  private:
   struct Landmark {
@@ -92,7 +99,10 @@ class FastSlam final : public Filter {
     int observations = 0;
     double seen_at_way_m = 0.0;
     std::int64_t seen_at_scan = 0;
-    double range_m = 0.0;  ///< when it was last seen by range alone, else 0
+    std::int64_t claimed_at_scan = 0;  // by a sighting, or decided about by each particle for itself
+    double range_m = 0.0;              // when it was last seen by range alone, else 0
+    bool confirmed = true;             // counts in the map
+    double existence = 1.0;            // probability of it
   };
 
   /// A landmark that stood on an edge of the field of view, between two scans.
@@ -103,6 +113,32 @@ class FastSlam final : public Filter {
   };
 
   void associate(std::span<const Observation> observations);
+
+  // Sightings without identity: fast_slam_unnamed.cpp.
+  void match_unnamed(std::span<const Observation> observations);
+  void decide(std::span<const Observation> observations);
+  void find_candidates(const Observation& observation, int index, const Pose2& T_world_sensor);
+  void take_decisions();
+  [[nodiscard]] double candidate_radius_m(const Observation& observation) const;
+  void settle_contested(std::span<const Observation> observations);
+  void split(std::span<const Observation> observations);
+  void offer_choices(const Observation& observation, int index);
+  void list_likelihoods(const Observation& observation, int landmark, float* column);
+  void accept_choices(std::span<const Observation> observations);
+  [[nodiscard]] double split_evidence(int index) const;
+  void report_choice(const fastslam::Association::Choice& choice);
+  void update_existence();
+  void note_choices();
+  void find_landmarks_in_reach();
+  void note_sighting(int landmark, const float* takers);
+  void note_support(int landmark);
+  void forget_ghosts();
+  void forget(int landmark);
+  void add_choices(std::span<const Observation> observations);
+  LandmarkId add_unnamed(const Observation& observation);
+  [[nodiscard]] bool any_contested() const;
+
+  void take_match(std::size_t index, int landmark);
   [[nodiscard]] Outcome screen(std::size_t index, const Observation& observation) const;
   void compare(std::span<const Observation> observations);
   void judge(const Observation& observation, std::size_t index);
@@ -118,7 +154,8 @@ class FastSlam final : public Filter {
   void add_edge(int landmark, double range_m, std::size_t age);
   void accept(const EdgeSighting& edge);
   void move_particles();
-  void count_sighting(int landmark, const Observation& observation);
+  void accept(const Observation& observation, int landmark, const fastslam::InnovationMoments& moments);
+  void count_sighting(int landmark);
   void weigh();
   void miss();
   void miss(int landmark);
@@ -134,7 +171,8 @@ class FastSlam final : public Filter {
   [[nodiscard]] bool any(Outcome outcome) const;
   [[nodiscard]] int matched_landmark(std::size_t index) const;
   [[nodiscard]] LandmarkEstimate landmark(int index) const;
-  [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot,
+  [[nodiscard]] std::vector<int> confirmed() const;
+  [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot, const std::vector<int>& indices,
                                                  const Eigen::VectorXd& landmarks) const;
 
   FastSlamOptions options_;
@@ -155,6 +193,16 @@ class FastSlam final : public Filter {
   AlignedArray<std::int32_t> ancestors_;
   IdIndex index_;
   std::vector<Landmark> landmarks_;  // by index in the store
+  std::optional<fastslam::Association> association_;
+  kernels::View view_;
+  std::vector<int> matched_;     // landmark of each observation that is matched
+  std::vector<char> contested_;  // observations that the set has not decided on
+  std::vector<char> undecided_;  // contested when particles were first asked
+  AlignedArray<float> nobody_;   // zeros
+  std::vector<int> in_reach_;    // landmarks that this scan may have shown
+  std::vector<LandmarkId> removed_;
+  std::int32_t next_unnamed_ = 0;
+  std::int64_t splits_ = 0;
 
   PoseEstimate estimate_;  // of the particles, after weighting and before resampling
   Motion pending_;         // since the particles were last moved

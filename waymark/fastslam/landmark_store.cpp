@@ -18,8 +18,17 @@ LandmarkStore::LandmarkStore(ParticleBlocks& blocks)
   pool_.reserve(kColumnsAtOnce);
 }
 
-int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes) {
-  Landmark landmark{form, origin_m, {}, nullptr, nullptr, present_};
+/// With room for one, if a removed landmark left any.
+std::vector<LandmarkMode> LandmarkStore::empty_modes() {
+  std::vector<LandmarkMode> modes;
+  if (spare_modes_.empty()) return modes;
+  modes = std::move(spare_modes_.back());
+  spare_modes_.pop_back();
+  return modes;
+}
+
+int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes, bool doubtful) {
+  Landmark landmark{form, origin_m, empty_modes(), nullptr, nullptr, nullptr, present_};
   for (std::size_t k = 0; k < modes; ++k) {
     LandmarkMode& mode = landmark.modes.emplace_back();
     mode.gaussian = {pool_.take(), pool_.take(), pool_.take(), pool_.take(), pool_.take()};
@@ -29,11 +38,24 @@ int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::
     landmark.anchor_x = pool_.take();
     landmark.anchor_y = pool_.take();
   }
+  if (doubtful) landmark.existence = pool_.take();
   landmarks_.push_back(std::move(landmark));
+  spare_modes_.reserve(landmarks_.capacity());
   ++generations_[present_].landmarks;
   list_columns(landmarks_.back());  // room for the list is taken here, not when the landmark is touched
   pool_.reserve(kColumnsAtOnce);
   return size() - 1;
+}
+
+void LandmarkStore::remove(int landmark) {
+  Landmark& removed = of(landmark);
+  list_columns(removed);
+  for (float** column : columns_) pool_.give_back(*column);
+  --generations_[removed.generation].landmarks;
+  removed.modes.clear();
+  spare_modes_.push_back(std::move(removed.modes));
+  if (landmark != size() - 1) removed = std::move(landmarks_.back());
+  landmarks_.pop_back();
 }
 
 void LandmarkStore::list_columns(Landmark& landmark) {
@@ -44,6 +66,7 @@ void LandmarkStore::list_columns(Landmark& landmark) {
     if (mode.log_weight != nullptr) columns_.push_back(&mode.log_weight);
   }
   if (landmark.anchor_x != nullptr) columns_.insert(columns_.end(), {&landmark.anchor_x, &landmark.anchor_y});
+  if (landmark.existence != nullptr) columns_.push_back(&landmark.existence);
 }
 
 /// The listed columns, through `places`: a few at a time, so that few columns have to be spare.

@@ -22,7 +22,7 @@ namespace waymark::fastslam {
 /// else nothing. resample() at most kGenerations N, whatever the size of the map; when the generations run
 /// out, young ones are folded into the present one before old ones, after Bentley and Saxe (1980): a landmark
 /// that nobody looks at is moved O(log landmarks) times, not once per so many resamplings. add() may take
-/// memory.
+/// memory, but none for landmarks that come after others were removed.
 class LandmarkStore {
  public:
   /// `blocks` must outlive the store.
@@ -31,8 +31,12 @@ class LandmarkStore {
   [[nodiscard]] int size() const { return static_cast<int>(landmarks_.size()); }
 
   /// Appends a landmark of such a form and so many hypotheses, positions counted from `origin_m`, and returns
-  /// its index. Its columns hold anything.
-  int add(kernels::LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes = 1);
+  /// its index. Its columns hold anything. One whose existence is `doubtful` has a column of log-odds too.
+  int add(kernels::LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes = 1,
+          bool doubtful = false);
+
+  /// Forgets a landmark; the last one takes its index.
+  void remove(int landmark);
 
   /// Brings a landmark into the present order of particles.
   void touch(int landmark);
@@ -43,6 +47,10 @@ class LandmarkStore {
 
   [[nodiscard]] kernels::LandmarkForm form(int landmark) const { return of(landmark).form; }
   [[nodiscard]] std::size_t modes(int landmark) const { return of(landmark).modes.size(); }
+
+  /// The log-odds that a touched landmark exists, one per particle (kernels/particle_existence.hpp); null
+  /// where that is not in doubt. Valid as a view is.
+  [[nodiscard]] float* existence(int landmark) const { return of(landmark).existence; }
 
   /// Forgets one of several hypotheses of all particles; of the last one the log weights.
   void drop_mode(int landmark, std::size_t mode);
@@ -66,6 +74,7 @@ class LandmarkStore {
     std::vector<kernels::LandmarkMode> modes;
     float* anchor_x = nullptr;
     float* anchor_y = nullptr;
+    float* existence = nullptr;
     std::size_t generation = 0;
   };
 
@@ -81,6 +90,7 @@ class LandmarkStore {
     return landmarks_[static_cast<std::size_t>(landmark)];
   }
   [[nodiscard]] Landmark& of(int landmark) { return landmarks_[static_cast<std::size_t>(landmark)]; }
+  [[nodiscard]] std::vector<kernels::LandmarkMode> empty_modes();
   void list_columns(Landmark& landmark);
   void gather_columns(const std::int32_t* places);
   void move_to_present(Landmark& landmark);
@@ -92,6 +102,7 @@ class LandmarkStore {
   ParticleBlocks& blocks_;
   ColumnPool pool_;
   std::vector<Landmark> landmarks_;
+  std::vector<std::vector<kernels::LandmarkMode>> spare_modes_;  // lists of removed landmarks, empty
   std::vector<Generation> generations_;
   AlignedArray<std::int32_t> ancestors_;
   AlignedArray<std::int32_t> composed_;

@@ -1,5 +1,8 @@
 #include "waymark/fastslam/particle_step.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace waymark::fastslam {
 namespace {
 
@@ -19,6 +22,51 @@ void draw_block(Particles& particles, const kernels::Increment& increment, const
                       particles.moving(range.begin), range.count);
 }
 
+/// Columns as they were, to be put back where a sighting is not for a particle.
+class Backup {
+ public:
+  Backup(std::span<float* const> columns, double* log_weight, std::size_t count)
+      : columns_(columns), log_weight_(log_weight), count_(count) {
+    for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], count, values_[c]);
+    std::copy_n(log_weight, count, log_weights_);
+  }
+  void restore_others(const float* takers) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (takers[i] != 0.0F) continue;
+      for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = values_[c][i];
+      log_weight_[i] = log_weights_[i];
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostColumns = 9;
+  std::span<float* const> columns_;
+  double* log_weight_;
+  std::size_t count_;
+  float values_[kMostColumns][ParticleBlocks::kBlockSize];
+  double log_weights_[ParticleBlocks::kBlockSize];
+};
+
+/// Runs `job` for those that take the sighting; others keep their entries of the columns.
+template <class Job>
+void run_for_takers(const AcceptedSighting& sighting, std::span<float* const> columns, double* log_weight,
+                    ParticleRange range, const Job& job) {
+  if (sighting.takers == nullptr) return job();
+  const Backup backup(columns, log_weight, range.count);
+  job();
+  backup.restore_others(sighting.takers + range.begin);
+}
+
+void condition_block(const AcceptedSighting& each, const kernels::Increment& increment, double* log_weight,
+                     BlockScratch& scratch, ParticleRange range) {
+  const kernels::IncrementColumns d = scratch.increments();
+  const std::array columns{d.x, d.y, d.t, d.xx, d.xy, d.xt, d.yy, d.yt, d.tt};
+  run_for_takers(each, columns, log_weight, range, [&] {
+    kernels::condition_increments(each.sighting, increment, scratch.robots(), each.evidence, d, log_weight,
+                                  range);
+  });
+}
+
 void update_block(std::span<const AcceptedSighting> sightings, double* log_weight, BlockScratch& scratch,
                   ParticleRange range) {
   const kernels::PoseColumns sensors = scratch.sensors();
@@ -26,8 +74,13 @@ void update_block(std::span<const AcceptedSighting> sightings, double* log_weigh
     // Most sightings of a scan are made from one place.
     if (&each == sightings.data() || each.sighting.mount != (&each - 1)->sighting.mount)
       kernels::place_sensors(scratch.robots(), each.sighting.mount, sensors, range.count);
-    kernels::update_landmark(each.sighting, sensors, each.evidence, each.shapes_motion ? nullptr : log_weight,
-                             range);
+    const auto& [a, b, aa, ab, bb] = each.sighting.landmark.modes->gaussian;
+    const std::array columns{a + range.begin, b + range.begin, aa + range.begin, ab + range.begin,
+                             bb + range.begin};
+    run_for_takers(each, columns, log_weight, range, [&] {
+      kernels::update_landmark(each.sighting, sensors, each.evidence,
+                               each.shapes_motion ? nullptr : log_weight, range);
+    });
   }
 }
 
@@ -56,9 +109,7 @@ void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& ori
     kernels::load_poses(particles.world(begin), origin_m.x(), origin_m.y(), scratch.robots(), range.count);
     kernels::fill_increments(increment, scratch.increments(), range.count);
     for (const AcceptedSighting& each : sightings)
-      if (each.shapes_motion)
-        kernels::condition_increments(each.sighting, increment, scratch.robots(), each.evidence,
-                                      scratch.increments(), log_weight, range);
+      if (each.shapes_motion) condition_block(each, increment, log_weight, scratch, range);
     if (moves) draw_block(particles, increment, key, scratch, range);
     update_block(sightings, log_weight, scratch, range);
   });

@@ -20,12 +20,14 @@ struct StreamKey {
   std::uint64_t step = 0;
 };
 
-/// A sighting that all particles take in.
+/// A sighting that particles take in.
 struct AcceptedSighting {
   kernels::Sighting sighting;
   double evidence = 1.0;  ///< the power of its likelihood that the weights take
   bool shapes_motion =
       false;  ///< particles draw their motion knowing it; else they are weighed after the draw
+  const float* takers = nullptr;  ///< the sighting is for particles with 1 here, not for those with 0; null:
+                                  ///< it is for all
 };
 
 /// One step of all particles, block by block, each block with all that it does while it is in the cache.

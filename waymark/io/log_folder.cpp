@@ -200,6 +200,19 @@ Result<void> read_landmarks(const fs::path& file, LogInfo& info) {
   return {};
 }
 
+/// Whether some sighting says what it is of, or there is none. Reads as far as it takes to find one.
+bool has_identities(const fs::path& file) {
+  if (!fs::exists(file)) return true;
+  auto table = TextTable::open(file, layout_of(log_format::kObservations));
+  if (!table) return true;
+  bool any = false;
+  while (table->next()) {
+    if (!table->is_empty(1)) return true;
+    for (const int column : {2, 3, 4, 5}) any = any || !table->is_empty(column);
+  }
+  return !any;
+}
+
 Result<void> open_stream(const fs::path& folder, const log_format::Table& format,
                          EventStream::ReadRow read_row, std::vector<EventStream>& streams) {
   const fs::path file = folder / format.file;
@@ -236,6 +249,7 @@ Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
                .format = "log folder",
                .settings = {},
                .landmarks = {},
+               .identities = has_identities(folder / log_format::kObservations.file),
                .truth_sensor_m = {}};
   if (auto done = read_info(folder, info); !done) return done.error();
   if (auto done = read_landmarks(folder / log_format::kLandmarks.file, info); !done) return done.error();

@@ -7,10 +7,12 @@
 #define WAYMARK_KERNELS_PARTICLE_FORMULAS_INL_H
 #endif
 
+#include <cmath>
 #include <cstddef>
 
 #include "waymark/kernels/lanes-inl.h"
 #include "waymark/kernels/particle_columns.hpp"
+#include "waymark/kernels/particle_sightings.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace waymark::kernels::HWY_NAMESPACE {
@@ -270,6 +272,25 @@ HWY_INLINE Look1<T> look_at_edge(const SeenLandmark& z, const SensorMount& mount
           -tx,
           -ty,
           tx * from.arm_y - ty * from.arm_x - T(1.0F)};
+}
+
+/// What a sensor sees from a robot that moves by an increment, it sees from before if it sits at the end of
+/// it.
+HWY_INLINE Sighting carried(const Sighting& sighting, const Increment& d) {
+  Sighting s = sighting;
+  const float c = std::cos(d.t);
+  const float sine = std::sin(d.t);
+  const auto turn = [c, sine](float& x, float& y) HWY_ATTR {
+    const float turned = c * x - sine * y;
+    y = sine * x + c * y;
+    x = turned;
+  };
+  turn(s.mount.x, s.mount.y);
+  turn(s.mount.cos_yaw, s.mount.sin_yaw);
+  turn(s.seen.cos_bearing, s.seen.sin_bearing);
+  s.mount.x += d.x;
+  s.mount.y += d.y;
+  return s;
 }
 
 template <class T>

@@ -220,25 +220,6 @@ struct Sums {
   }
 };
 
-// What a sensor sees from a robot that moves by an increment, it sees from before if it sits at the end of
-// it.
-HWY_INLINE Sighting carried(const Sighting& sighting, const Increment& d) {
-  Sighting s = sighting;
-  const float c = std::cos(d.t);
-  const float sine = std::sin(d.t);
-  const auto turn = [c, sine](float& x, float& y) HWY_ATTR {
-    const float turned = c * x - sine * y;
-    y = sine * x + c * y;
-    x = turned;
-  };
-  turn(s.mount.x, s.mount.y);
-  turn(s.mount.cos_yaw, s.mount.sin_yaw);
-  turn(s.seen.cos_bearing, s.seen.sin_bearing);
-  s.mount.x += d.x;
-  s.mount.y += d.y;
-  return s;
-}
-
 template <class T, class Way>
 HWY_INLINE InnovationSums compare_range(const Sighting& sighting, const Increment& increment,
                                         const PoseColumns& before, const About& about, const double* weight,
@@ -665,8 +646,7 @@ void update_landmark(const Sighting& sighting, const PoseColumns& sensors, doubl
   HWY_DYNAMIC_DISPATCH(update_lanes)(sighting, sensors, evidence, log_weight, range);
 }
 
-void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
-                   ParticleRange range) {
+void miss_modes(const Sighting& sighting, double detected, const PoseColumns& sensors, ParticleRange range) {
   HWY_DYNAMIC_DISPATCH(miss_lanes)(sighting, detected, sensors, range);
 }
 
@@ -699,8 +679,7 @@ void update_landmark(const Sighting& sighting, const PoseColumns& sensors, doubl
   HWY_NAMESPACE::update_as<double>(sighting, sensors, evidence, log_weight, range);
 }
 
-void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
-                   ParticleRange range) {
+void miss_modes(const Sighting& sighting, double detected, const PoseColumns& sensors, ParticleRange range) {
   HWY_NAMESPACE::miss_range<double>(sighting, detected, sensors, range);
 }
 

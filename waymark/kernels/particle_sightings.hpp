@@ -78,8 +78,7 @@ struct FirstGuess {
 
 /// Of a landmark of several hypotheses that was not seen, those that are clearly in view keep 1 - detected of
 /// their weight. Dropped as in update_landmark.
-void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
-                   ParticleRange range);
+void miss_modes(const Sighting& sighting, double detected, const PoseColumns& sensors, ParticleRange range);
 
 /// The landmark as it is after one sighting from `sensors`: for a known pose, Sigma = Hm^-1 R Hm^-T.
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,
@@ -96,8 +95,7 @@ void condition_increments(const Sighting& sighting, const Increment& expected, c
                           ParticleRange range);
 void update_landmark(const Sighting& sighting, const PoseColumns& sensors, double evidence,
                      double* log_weight, ParticleRange range);
-void miss_landmark(const Sighting& sighting, double detected, const PoseColumns& sensors,
-                   ParticleRange range);
+void miss_modes(const Sighting& sighting, double detected, const PoseColumns& sensors, ParticleRange range);
 void place_landmark(const Sighting& sighting, const FirstGuess& guess, const PoseColumns& sensors,
                     ParticleRange range);
 }  // namespace reference

@@ -94,7 +94,10 @@ Observations scan(const SensorOptions& options, const Pose2& T_world_robot,
     const RangeBearing value = disturbed(sensor, truth, random);
     const bool is_dropped = random.uniform() < options.drop_probability || value.range_m <= 0.0;
     const bool is_misread = random.uniform() < options.misread_probability;
-    if (!is_dropped) report(is_misread ? misread(landmarks, i, random) : landmarks[i].id, value);
+    if (is_dropped) continue;
+    report(is_misread ? misread(landmarks, i, random) : landmarks[i].id, value);
+    if (options.clutter_probability > 0.0 && random.uniform() < options.clutter_probability)
+      seen.push_back({std::nullopt, as_measured(options.observe, false_sighting(options, random)), {}});
   }
   if (random.uniform() < options.false_probability) {
     const LandmarkId id = false_identity(landmarks, random);

@@ -28,10 +28,13 @@ void describe(Schema& schema, PathOptions& o) {
 
 void describe(Schema& schema, WorldOptions& o) {
   schema.integer("sim.landmarks", o.landmarks, {0, 10000}, "landmarks in the world");
+  schema.choice("sim.landmark_spread", o.spread, {"path", "area"},
+                "landmarks stand on both sides of the path, or anywhere in a square about the origin");
+  schema.real("sim.landmark_area_m", o.area_m, {0.5, 10000.0}, "side of that square");
   schema.real("sim.landmark_min_offset_m", o.min_offset_m, {0.0, 100.0},
               "least distance of a landmark from the path");
   schema.real("sim.landmark_max_offset_m", o.max_offset_m, {0.1, 100.0},
-              "largest distance of a landmark from the path");
+              "largest distance of a landmark from the path it is placed along");
   schema.real("sim.landmark_separation_m", o.separation_m, {0.0, 100.0},
               "wanted distance between landmarks; halved as often as it takes to find room");
 }
@@ -74,6 +77,8 @@ void describe(Schema& schema, SensorOptions& o) {
   schema.real(
       "sim.false_probability", o.false_probability, kProbability,
       "chance per scan of a sighting where nothing stands, half of them with the identity of a landmark");
+  schema.real("sim.clutter_probability", o.clutter_probability, kProbability,
+              "chance per reported landmark of a further sighting where nothing stands, without identity");
   schema.real("sim.misread_probability", o.misread_probability, kProbability,
               "chance that a sighting bears the identity of another landmark");
   schema.boolean("sim.identities", o.identities, "sightings say which landmark they are of");
@@ -102,7 +107,12 @@ SimOptions study() {
                .corner_radius_m = 0.0,
                .speed_mps = 0.3,
                .turn_rate_max_degps = 45.0},
-      .world = {.landmarks = 24, .min_offset_m = 1.0, .max_offset_m = 3.0, .separation_m = 0.5},
+      .world = {.landmarks = 24,
+                .spread = Spread::kPath,
+                .area_m = 30.0,
+                .min_offset_m = 1.0,
+                .max_offset_m = 3.0,
+                .separation_m = 0.5},
       .wheels = {.odometry = OdometryKind::kWheels,
                  .rate_hz = 50.0,
                  .radius_m = 0.0975,
@@ -125,6 +135,7 @@ SimOptions study() {
                  .bearing_sigma_deg = 1.5,
                  .drop_probability = 0.0,
                  .false_probability = 0.0,
+                 .clutter_probability = 0.0,
                  .misread_probability = 0.0,
                  .identities = true},
       .truth = {.rate_hz = 10.0, .heading = true},
@@ -153,6 +164,31 @@ SimOptions report(Shape shape) {
   return options;
 }
 
+// The robot of the study, faster, among trunks that all look alike.
+SimOptions forest() {
+  SimOptions options = study();
+  options.path.shape = Shape::kRandom;
+  options.path.side_m = 24.0;
+  options.path.waypoints = 12;
+  options.path.corner_radius_m = 1.0;
+  options.path.speed_mps = 1.0;
+  options.world = {.landmarks = 100,
+                   .spread = Spread::kArea,
+                   .area_m = 30.0,
+                   .min_offset_m = 0.5,
+                   .max_offset_m = 3.0,
+                   .separation_m = 1.0};
+  options.sensor.rate_hz = 5.0;
+  options.sensor.range_max_m = 10.0;
+  options.sensor.field_of_view_deg = 180.0;
+  options.sensor.range_sigma_m = 0.1;
+  options.sensor.bearing_sigma_deg = 1.0;
+  options.sensor.drop_probability = 0.05;
+  options.sensor.clutter_probability = 0.05;
+  options.sensor.identities = false;
+  return options;
+}
+
 const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
   static const std::vector<std::pair<std::string, SimOptions>> all{
       {"square", shaped(Shape::kSquare)},
@@ -160,6 +196,7 @@ const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
       {"figure-eight", shaped(Shape::kFigureEight)},
       {"random", shaped(Shape::kRandom)},
       {"study", study()},
+      {"forest", forest()},
       {"report-square", report(Shape::kSquare)},
       {"report-l-shape", report(Shape::kLShape)},
   };
@@ -189,7 +226,7 @@ void describe(Schema& schema, SimOptions& options) {
 Result<void> validate(const SimOptions& options) {
   if (auto limits = validate_limits(options); !limits) return limits;
   const auto& [path, world, wheels, sensor, truth] = options;
-  if (world.max_offset_m < world.min_offset_m + 0.1) {
+  if (world.spread == Spread::kPath && world.max_offset_m < world.min_offset_m + 0.1) {
     return Error{fmt::format(
         "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",
         world.max_offset_m, world.min_offset_m + 0.1)};

@@ -136,8 +136,9 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   if (auto size = check_size(path, options); !size) return size.error();
 
   const Drive driven = drive(path, options, seed);
-  LogInfo info{
-      std::move(name), "simulation", settings_of(options), place_landmarks(options.world, path, seed), {}};
+  LogInfo info{std::move(name),           "simulation",
+               settings_of(options),      place_landmarks(options.world, path, seed),
+               options.sensor.identities, {}};
   std::vector<Event> events;
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);

@@ -18,7 +18,13 @@ Eigen::Vector2d point_at(const Path& path, double along_m) {
   return path.back().at(1.0).position();
 }
 
+Eigen::Vector2d draw_in_area(double side_m, RandomStream& random) {
+  const double x_m = random.uniform(-0.5, 0.5) * side_m;
+  return {x_m, random.uniform(-0.5, 0.5) * side_m};
+}
+
 Eigen::Vector2d draw_candidate(const WorldOptions& options, const Path& path, RandomStream& random) {
+  if (options.spread == Spread::kArea) return draw_in_area(options.area_m, random);
   const Eigen::Vector2d p = point_at(path, random.uniform(0.0, length_m(path)));
   const double offset_m = random.uniform(options.min_offset_m, options.max_offset_m);
   const double direction_rad = random.uniform(-kPi, kPi);
@@ -36,14 +42,19 @@ bool is_apart(const std::vector<TrueLandmark>& landmarks, const Eigen::Vector2d&
 std::vector<TrueLandmark> place_landmarks(const WorldOptions& options, const Path& path, std::uint64_t seed) {
   RandomStream random(seed, StreamPurpose::kWorld, 1);
   std::vector<TrueLandmark> landmarks;
+  const bool in_area = options.spread == Spread::kArea;
   double separation_m = options.separation_m;
+  double offset_m = options.min_offset_m;
   int crowded = 0;
   while (static_cast<int>(landmarks.size()) < options.landmarks) {
     // A candidate is at most max_offset_m from where it was drawn, so only the lower bound is left to check.
     const Eigen::Vector2d p = draw_candidate(options, path, random);
-    if (distance_m(path, p) < options.min_offset_m) continue;
-    if (!is_apart(landmarks, p, separation_m)) {
+    const bool is_clear = distance_m(path, p) >= offset_m;
+    if (!is_clear && !in_area) continue;
+    if (!is_clear || !is_apart(landmarks, p, separation_m)) {
       if (++crowded % kTriesPerSeparation == 0) separation_m /= 2.0;
+      // A path may fill its square; one beside which landmarks are drawn leaves room by itself.
+      if (crowded % kTriesPerSeparation == 0 && in_area) offset_m /= 2.0;
       continue;
     }
     crowded = 0;

@@ -9,8 +9,9 @@
 
 namespace waymark::sim {
 
-/// Landmarks at random places on both sides of the path, each between the two offsets from its nearest point,
-/// numbered from 0 in the marker family. The options must be valid. O(n^2) in the number of landmarks.
+/// Landmarks at random places, numbered from 0 in the marker family: on both sides of the path, each between
+/// the two offsets from its nearest point, or evenly over a square, no nearer to the path than the smaller
+/// one while there is room. The options must be valid. O(n^2) in the number of landmarks.
 [[nodiscard]] std::vector<TrueLandmark> place_landmarks(const WorldOptions& options, const Path& path,
                                                         std::uint64_t seed);
 

@@ -18,6 +18,8 @@ Result<void> apply(Schema& schema, const UserSettings& user) {
 }
 
 Result<void> apply(Schema& schema, const LogInfo& log) {
+  if (!log.identities)
+    if (auto done = schema.set("associate", "ml", log.name); !done) return done;
   for (const auto& [key, value] : log.settings)
     if (auto done = schema.set(key, value, log.name); !done) return done;
   return {};
@@ -38,7 +40,9 @@ Schema describe(Config& config) {
   schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
   schema.choice("observe", config.observe, {"range-bearing", "range", "bearing"},
                 "which part of the observations is used");
-  schema.choice("associate", config.associate, {"known"}, "how observations find their landmarks");
+  schema.choice("associate", config.associate, {"known", "ml"},
+                "how observations find their landmarks: by identity alone, or without one by maximum "
+                "likelihood; the default is what the log allows");
   schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
   schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
   describe(schema, config.input);
@@ -46,6 +50,7 @@ Schema describe(Config& config) {
   describe(schema, config.sensor);
   describe(schema, config.pipeline);
   describe(schema, config.gate);
+  describe(schema, config.association);
   describe(schema, config.ekf);
   describe(schema, config.fastslam);
   sim::describe(schema, config.sim);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "waymark/association/association_options.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/core/config.hpp"
 #include "waymark/core/source.hpp"
@@ -20,7 +21,10 @@
 namespace waymark {
 
 enum class FilterKind { kEkf, kFastSlam };
-enum class Association { kKnown };
+enum class Association {
+  kKnown,  ///< by their identities
+  kMl      ///< those without identity by maximum likelihood
+};
 
 /// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the
 /// result.
@@ -35,6 +39,7 @@ struct Config {
   LandmarkSensor sensor;
   PipelineOptions pipeline;
   GateOptions gate;
+  AssociationOptions association;
   EkfOptions ekf;
   FastSlamOptions fastslam;
   sim::SimOptions sim;

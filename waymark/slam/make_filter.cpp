@@ -8,11 +8,17 @@ Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
     case FilterKind::kEkf:
       if (config.observe != Observe::kRangeBearing)
         return Error{"observe: the EKF takes range-bearing so far; range or bearing alone: filter=fastslam"};
+      if (config.associate != Association::kKnown)
+        return Error{"associate: the EKF needs identities so far; sightings without: filter=fastslam"};
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor,
                                                                config.threads, config.sensor.errors));
     case FilterKind::kFastSlam:
-      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(config.fastslam, config.gate, config.sensor,
-                                                                config.seed, config.threads));
+      if (config.associate == Association::kMl && config.observe != Observe::kRangeBearing)
+        return Error{
+            "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
+      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
+          config.fastslam, config.gate, config.sensor, config.seed, config.threads, PoseEstimate{},
+          config.associate == Association::kMl ? std::optional(config.association) : std::nullopt));
   }
   return Error{"filter: unknown"};
 }

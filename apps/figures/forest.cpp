@@ -1,0 +1,170 @@
+#include "figures/forest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "waymark/core/parallel.hpp"
+#include "waymark/eval/map_error.hpp"
+#include "waymark/eval/median.hpp"
+#include "waymark/report/results.hpp"
+#include "waymark/slam/recording_figures.hpp"
+
+namespace waymark {
+namespace {
+
+struct Request {
+  int seeds = 50;
+  int particles = 150;
+  int sightings = 10;
+  std::vector<std::string> settings;
+};
+
+/// What is kept of one run. Landmarks are matched with the nearest, whether they have names or not.
+struct Run {
+  double rmse_m = NAN;
+  double aligned_rmse_m = NAN;
+  double dead_reckoning_rmse_m = NAN;
+  double landmark_rmse_m = NAN;
+  double nees_median = NAN;
+  double step_us = NAN;
+  double map = 0.0;
+  double spurious = 0.0;
+  double seen = 0.0;  ///< trunks that were sighted often enough
+  double missed = 0.0;
+};
+
+struct Pair {
+  Run known;
+  Run unknown;
+};
+
+using Sightings = std::map<LandmarkId, int>;
+
+std::optional<RunResult> run(const Request& request, int seed, bool identities) {
+  std::vector<std::string> settings{"filter=fastslam", fmt::format("seed={}", seed),
+                                    fmt::format("fastslam.particles={}", request.particles)};
+  settings.insert(settings.end(), request.settings.begin(), request.settings.end());
+  settings.push_back(fmt::format("sim.identities={}", identities));
+  auto result = run_log("sim:forest", {{}, std::move(settings)});
+  if (!result) fmt::print(stderr, "seed {}: {}\n", seed, result.error().message);
+  return result && result->evaluation ? std::optional(std::move(*result)) : std::nullopt;
+}
+
+/// How often each trunk was sighted: the run with identities says so.
+Sightings count_sightings(const RunResult& known) {
+  Sightings sightings;
+  for (const auto& [stamp, innovation] : known.recording.innovations) ++sightings[innovation.landmark];
+  return sightings;
+}
+
+void count_landmarks(Run& kept, const RunResult& result, const Sightings& sightings, int least) {
+  const eval::Evaluation& e = *result.evaluation;
+  if (!e.fit) return;
+  const auto map = result.recording.filter->snapshot().landmarks;
+  const auto& survey = result.log.landmarks;
+  const auto matches = eval::match_nearest(map, survey, e.fit->T_truth_estimate);
+  std::vector<bool> found(survey.size());
+  for (const eval::LandmarkMatch& match : matches) found[match.surveyed] = true;
+  kept.map = static_cast<double>(map.size());
+  kept.spurious = static_cast<double>(map.size() - matches.size());
+  for (std::size_t j = 0; j < survey.size(); ++j) {
+    const auto count = sightings.find(survey[j].id);
+    if (count == sightings.end() || count->second < least) continue;
+    kept.seen += 1.0;
+    kept.missed += found[j] ? 0.0 : 1.0;
+  }
+  const auto error =
+      eval::map_error(map, survey, {std::nullopt, e.fit->T_truth_estimate}, eval::LandmarkNames::kUnknown);
+  if (error) kept.landmark_rmse_m = error->rmse_m.value_or(NAN);
+}
+
+Run keep(const RunResult& result, const Sightings& sightings, int least) {
+  const eval::Evaluation& e = *result.evaluation;
+  Run kept;
+  kept.rmse_m = e.path.position_rmse_m.value_or(NAN);
+  kept.aligned_rmse_m = e.path.position_rmse_aligned_m.value_or(NAN);
+  kept.dead_reckoning_rmse_m = e.odometry.position_rmse_m.value_or(NAN);
+  kept.nees_median = e.nees.median.value_or(NAN);
+  kept.step_us = step_times(result.recording.steps).mean_us;
+  count_landmarks(kept, result, sightings, least);
+  return kept;
+}
+
+Pair run_both(const Request& request, int seed) {
+  const auto known = run(request, seed, true);
+  const auto unknown = run(request, seed, false);
+  if (!known || !unknown) return {};
+  const Sightings sightings = count_sightings(*known);
+  return {keep(*known, sightings, request.sightings), keep(*unknown, sightings, request.sightings)};
+}
+
+double sum(const std::vector<Run>& runs, double Run::*member) {
+  double total = 0.0;
+  for (const Run& each : runs) total += each.*member;
+  return total;
+}
+
+double mean(const std::vector<Run>& runs, double Run::*member) {
+  return sum(runs, member) / static_cast<double>(runs.size());
+}
+
+double median(const std::vector<Run>& runs, double Run::*member) {
+  std::vector<double> values;
+  for (const Run& each : runs) values.push_back(each.*member);
+  return eval::median(values).value_or(NAN);
+}
+
+void print_row(const char* name, const std::vector<Run>& runs) {
+  const auto diverged =
+      std::ranges::count_if(runs, [](const Run& one) { return !(one.rmse_m <= one.dead_reckoning_rmse_m); });
+  fmt::print("{:<9}{:>8.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>8.1f}{:>11.2f}{:>9.2f}{:>9.0f}{:>10}\n",
+             name, mean(runs, &Run::rmse_m), median(runs, &Run::rmse_m), mean(runs, &Run::aligned_rmse_m),
+             median(runs, &Run::aligned_rmse_m), mean(runs, &Run::landmark_rmse_m),
+             median(runs, &Run::landmark_rmse_m), median(runs, &Run::nees_median),
+             100.0 * sum(runs, &Run::spurious) / sum(runs, &Run::map),
+             100.0 * sum(runs, &Run::missed) / sum(runs, &Run::seen), mean(runs, &Run::step_us), diverged);
+}
+
+void print_table(const Request& request) {
+  std::vector<Run> known(static_cast<std::size_t>(request.seeds));
+  std::vector<Run> unknown(known.size());
+  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  team.run(request.seeds, [&](int i) {
+    const Pair pair = run_both(request, i + 1);
+    known[static_cast<std::size_t>(i)] = pair.known;
+    unknown[static_cast<std::size_t>(i)] = pair.unknown;
+  });
+  fmt::print("world forest, FastSLAM, {} particles, {} seeds; RMSE in m as mean and median\n",
+             request.particles, request.seeds);
+  fmt::print("{:<9}{:>16}{:>17}{:>17}{:>8}{:>11}{:>9}{:>9}{:>10}\n", "identity", "position", "aligned",
+             "landmarks", "NEES", "spurious %", "missed %", "us/step", "diverged");
+  print_row("known", known);
+  print_row("unknown", unknown);
+  fmt::print("unknown against known, position: mean {:.2f}, median {:.2f}\n",
+             mean(unknown, &Run::rmse_m) / mean(known, &Run::rmse_m),
+             median(unknown, &Run::rmse_m) / median(known, &Run::rmse_m));
+  fmt::print("missed counts trunks with {} sightings or more: {:.1f} of a run's\n", request.sightings,
+             mean(known, &Run::seen));
+}
+
+}  // namespace
+
+void add_forest(CLI::App& app) {
+  auto* command = app.add_subcommand("forest", "FastSLAM without identities and with them");
+  auto request = std::make_shared<Request>();
+  command->add_option("--seeds", request->seeds)->check(CLI::PositiveNumber);
+  command->add_option("--particles", request->particles)->check(CLI::PositiveNumber);
+  command->add_option("--sightings", request->sightings, "least sightings of a trunk that may be missed");
+  command->add_option("--set", request->settings, "config key=value")->allow_extra_args(false);
+  command->callback([request] { print_table(*request); });
+}
+
+}  // namespace waymark

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "waymark/core/config.hpp"
+#include "waymark/models/landmark_sensor.hpp"
+
+namespace waymark {
+
+/// What is assumed of sightings that do not say which landmark they are of.
+struct AssociationOptions {
+  double false_alarm_probability = 0.02;  ///< Pfa: that something else is taken for it
+  double clutter_per_scan = 1.0;          ///< sightings of nothing
+  double landmarks_per_m2 = 0.1;          ///< still unknown ones in a place not seen before
+  double confirmed_log_odds = 6.0;        ///< from which a landmark counts in the map
+  double most_log_odds = 12.0;            ///< where certainty ends
+};
+
+void describe(Schema& schema, AssociationOptions& options);
+
+/// The numbers that association works with. Log-odds of existence grow by log(Pd / Pfa) when a landmark is
+/// seen and by log((1 - Pd) / (1 - Pfa)) when it should have been; they begin at 0, and below 0 the landmark
+/// is given up. Pd is the sensor's, 0.9 where it is not known.
+class AssociationModel {
+ public:
+  AssociationModel(const AssociationOptions& options, const LandmarkSensor& sensor);
+
+  [[nodiscard]] double seen() const { return seen_; }
+  [[nodiscard]] double missed() const { return missed_; }
+  [[nodiscard]] double confirmed() const { return options_.confirmed_log_odds; }
+  [[nodiscard]] double most() const { return options_.most_log_odds; }
+
+  /// log of the density, per metre of range and radian of bearing, of sightings of nothing known: clutter is
+  /// even over range and bearing, unknown landmarks over the ground.
+  [[nodiscard]] double log_density_of_others(double range_m) const;
+
+  /// log(q / (1 - q)), q the chance that a landmark is both there and seen.
+  [[nodiscard]] double log_odds_of_sighting(double existence_probability) const;
+
+ private:
+  AssociationOptions options_;
+  double detected_;
+  double seen_;
+  double missed_;
+  double clutter_density_;
+};
+
+}  // namespace waymark

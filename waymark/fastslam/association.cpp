@@ -1,0 +1,124 @@
+#include "waymark/fastslam/association.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "waymark/core/angle.hpp"
+
+namespace waymark::fastslam {
+namespace {
+
+// A few landmarks per cell where they are as dense as trunks.
+constexpr double kCell_m = 2.0;
+// So many choices a particle can tell apart in bits.
+constexpr std::size_t kMostChoices = 32;
+const double kLogTurn = std::log(2.0 * kPi);
+
+double log_density(const InnovationMoments& moments) {
+  const Eigen::Matrix2d S = moments.covariance();
+  return -0.5 * (moments.mean.dot(S.inverse() * moments.mean) + std::log(S.determinant())) - kLogTurn;
+}
+
+}  // namespace
+
+Association::Association(const AssociationModel& model, ParticleBlocks& blocks)
+    : model_(model),
+      blocks_(blocks),
+      grid_(kCell_m),
+      stride_(blocks.capacity()),
+      columns_(kMostChoices * blocks.capacity()) {
+  choices_.reserve(kMostChoices);
+}
+
+void Association::index(const LandmarkStore& store, int particle) {
+  places_.clear();
+  for (int k = 0; k < store.size(); ++k) places_.push_back(store.at(k, particle).mean);
+  grid_.build(places_);
+}
+
+void Association::consider(int sighting, int landmark, const InnovationMoments& moments, double range_m,
+                           double existence) {
+  const double score =
+      log_density(moments) + model_.log_odds_of_sighting(existence) - model_.log_density_of_others(range_m);
+  match_.add({sighting, landmark, score});
+}
+
+Association::Choice* Association::add_choice(const Choice& choice) {
+  if (choices_.size() == kMostChoices) return nullptr;
+  choices_.push_back(choice);
+  choices_.back().column = columns_.data() + (choices_.size() - 1) * stride_;
+  return &choices_.back();
+}
+
+Association::Choice* Association::offer(int sighting, int landmark, double range_m, double existence) {
+  return add_choice({sighting, landmark, model_.log_odds_of_sighting(existence),
+                     model_.log_density_of_others(range_m), nullptr});
+}
+
+Association::Choice* Association::offer_none(int sighting, double range_m) {
+  return add_choice(
+      {sighting, ExclusiveMatch::kNothing, 0.0, model_.log_density_of_others(range_m), nullptr});
+}
+
+void Association::split(const LandmarkStore& store) {
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) choose(store, i);
+  });
+}
+
+/// Bit c of `open` is set while choice c can still be taken.
+void Association::choose(const LandmarkStore& store, std::size_t particle) {
+  std::array<double, kMostChoices> scores{};
+  std::uint32_t open = 0;
+  for (std::size_t c = 0; c < choices_.size(); ++c) {
+    Choice& choice = choices_[c];
+    const bool known = choice.landmark != ExclusiveMatch::kNothing;
+    const float* existence = known ? store.existence(choice.landmark) : nullptr;
+    // Being of nothing known scores 0: that it is left when nothing scores more.
+    if (known) scores[c] = static_cast<double>(choice.column[particle]) + choice.log_odds - choice.log_others;
+    const bool has = existence == nullptr || existence[particle] >= 0.0F;
+    if (has && (!known || scores[c] > 0.0)) open |= 1U << c;
+    choice.column[particle] = 0.0F;
+  }
+  while (open != 0) {
+    std::size_t best = kMostChoices;
+    for (std::size_t c = 0; c < choices_.size(); ++c)
+      if ((open >> c & 1U) != 0 && (best == kMostChoices || scores[c] > scores[best])) best = c;
+    choices_[best].column[particle] = 1.0F;
+    for (std::size_t c = 0; c < choices_.size(); ++c) {
+      const bool same_landmark =
+          choices_[c].landmark == choices_[best].landmark && choices_[c].landmark != ExclusiveMatch::kNothing;
+      if (choices_[c].sighting == choices_[best].sighting || same_landmark) open &= ~(1U << c);
+    }
+  }
+}
+
+double Association::log_weight(const Choice& choice) {
+  return choice.landmark != ExclusiveMatch::kNothing ? choice.log_odds : choice.log_others + kLogTurn;
+}
+
+float Association::after_sighting(float log_odds) const {
+  if (log_odds < 0.0F) return 0.0F;
+  return std::min(static_cast<float>(model_.most()), log_odds + static_cast<float>(model_.seen()));
+}
+
+Association::Support Association::support(const float* log_odds, const Particles& particles) const {
+  const auto confirmed = static_cast<float>(model_.confirmed());
+  const auto sums = blocks_.sum([&](std::size_t begin, std::size_t end) {
+    std::array<double, 3> sum{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const double w = log_odds[i] < 0.0F ? 0.0 : particles.weights()[i];
+      sum[0] += w;
+      sum[1] += log_odds[i] < confirmed ? 0.0 : w;
+      sum[2] += w * static_cast<double>(log_odds[i]);
+    }
+    return sum;
+  });
+  const double mean = sums[0] > 0.0 ? sums[2] / sums[0] : 0.0;
+  return {sums[0], sums[1], sums[0] / (1.0 + std::exp(-mean))};
+}
+
+}  // namespace waymark::fastslam

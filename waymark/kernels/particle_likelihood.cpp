@@ -1,0 +1,69 @@
+#include "waymark/kernels/particle_likelihood.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "waymark/kernels/particle_likelihood.cpp"
+// Structs of vectors need a vector size known at compile time; SVE machines run the NEON code.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "waymark/kernels/particle_formulas-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace waymark::kernels::HWY_NAMESPACE {
+
+constexpr double kLogTurn = 1.8378770664093453;  // log 2 pi
+
+template <class T>
+HWY_INLINE void list_as(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                        float* log_likelihood, ParticleRange range) {
+  const Sighting s = carried(sighting, increment);
+  const T zero = T(0.0F);
+  const Gaussian3<T> d{zero,
+                       zero,
+                       zero,
+                       T(increment.xx),
+                       T(increment.xy),
+                       T(increment.xt),
+                       T(increment.yy),
+                       T(increment.yt),
+                       T(increment.tt)};
+  const T offset_x = T(s.landmark.offset_x);
+  const T offset_y = T(s.landmark.offset_y);
+  for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
+    const Pose<T> pose = load_pose<T>(before, i);
+    const Sensor<T> from = sensor_of(pose, s.mount);
+    const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
+    const Look2<T> look = look_at_point(s.seen, from, m, offset_x, offset_y);
+    store(condition2(d, rows_of(look, from, pose), look, m).log_likelihood - T(kLogTurn), log_likelihood, i);
+  }
+}
+
+void list_lanes(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                float* log_likelihood, ParticleRange range) {
+  list_as<Lanes>(sighting, increment, before, log_likelihood, range);
+}
+
+}  // namespace waymark::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace waymark::kernels {
+
+HWY_EXPORT(list_lanes);
+
+void list_log_likelihoods(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                          float* log_likelihood, ParticleRange range) {
+  HWY_DYNAMIC_DISPATCH(list_lanes)(sighting, increment, before, log_likelihood, range);
+}
+
+namespace reference {
+
+void list_log_likelihoods(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+                          float* log_likelihood, ParticleRange range) {
+  HWY_NAMESPACE::list_as<double>(sighting, increment, before, log_likelihood, range);
+}
+
+}  // namespace reference
+}  // namespace waymark::kernels
+#endif
