@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bench/ekf_bench.hpp"
+#include "bench/fastslam_bench.hpp"
 #include "bench/machine.hpp"
 #include "commands.hpp"
 
@@ -16,7 +17,7 @@ struct Suite {
   const char* name;
   std::vector<BenchResult> (*run)(const Machine&, BenchScope, const BenchProgress&);
 };
-constexpr std::array kSuites{Suite{"ekf", bench_ekf}};
+constexpr std::array kSuites{Suite{"ekf", bench_ekf}, Suite{"fastslam", bench_fastslam}};
 
 struct Request {
   std::vector<std::string> suites;

@@ -23,9 +23,10 @@ std::vector<double> random_weights(RandomStream& random, std::size_t count) {
 }
 
 std::vector<std::int32_t> ancestors_of(const std::vector<double>& weights, double u) {
-  std::vector<std::int32_t> ancestors(weights.size(), -7);
-  choose_ancestors(weights, u, ancestors);
-  return ancestors;
+  ParticleBlocks blocks(static_cast<int>(weights.size()));
+  Resampling resampling(blocks);
+  const auto ancestors = resampling.choose_ancestors(weights, u, weights.size());
+  return {ancestors.begin(), ancestors.end()};
 }
 
 std::vector<int> offspring_of(const std::vector<double>& weights, double u) {
@@ -42,7 +43,7 @@ TEST(EffectiveParticles, CountsEquallyLikelyOnes) {
 
 TEST(ChooseAncestors, GivesFloorOrCeilOfTheExpectedOffspring) {
   RandomStream random(1, StreamPurpose::kResampling);
-  for (const std::size_t count : {1U, 2U, 17U, 1000U}) {
+  for (const std::size_t count : {1U, 2U, 17U, 256U, 1000U}) {
     for (int round = 0; round < 50; ++round) {
       const auto weights = random_weights(random, count);
       const auto offspring = offspring_of(weights, random.uniform());
@@ -87,6 +88,42 @@ TEST(ChooseAncestors, NeverRevivesADeadParticleAtTheExtremesOfU) {
     EXPECT_EQ(offspring.front(), 0) << u;
     for (std::size_t i = 11; i < offspring.size(); ++i) EXPECT_EQ(offspring[i], 0) << u;
   }
+}
+
+TEST(ChooseAncestors, TakesAsManyAsAskedFor) {
+  RandomStream random(4, StreamPurpose::kResampling);
+  ParticleBlocks blocks(1000);
+  Resampling resampling(blocks);
+  for (const std::size_t before : {1000U, 300U, 700U})
+    for (const std::size_t after : {1U, 200U, 700U, 1000U}) {
+      blocks.resize(before);
+      const auto weights = random_weights(random, before);
+      const auto ancestors = resampling.choose_ancestors(weights, random.uniform(), after);
+      ASSERT_EQ(ancestors.size(), after);
+      std::vector<int> offspring(before);
+      for (std::size_t i = 0; i < after; ++i) {
+        const auto ancestor = static_cast<std::size_t>(ancestors[i]);
+        ++offspring.at(ancestor);
+        if (ancestor < after) EXPECT_EQ(ancestors[ancestor], ancestors[i]);
+      }
+      for (std::size_t i = 0; i < before; ++i) {
+        const double expected = static_cast<double>(after) * weights[i];
+        EXPECT_GE(offspring[i], std::floor(expected - 1e-9));
+        EXPECT_LE(offspring[i], std::ceil(expected + 1e-9));
+      }
+    }
+}
+
+TEST(ChooseAncestors, IsTheSameOnSeveralThreads) {
+  RandomStream random(5, StreamPurpose::kResampling);
+  const auto weights = random_weights(random, 5000);
+  ParticleBlocks one(5000, 1);
+  ParticleBlocks two(5000, 2);
+  Resampling on_one(one);
+  Resampling on_two(two);
+  const auto a = on_one.choose_ancestors(weights, 0.3, 5000);
+  const auto b = on_two.choose_ancestors(weights, 0.3, 5000);
+  EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
 }
 
 TEST(ChooseAncestors, EqualWeightsChangeNothing) {

@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 
 #include "waymark/core/gaussian.hpp"
-#include "waymark/fastslam/resampling.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark {
@@ -156,6 +155,11 @@ void describe(Schema& schema, FastSlamOptions& o) {
   schema.real(
       "fastslam.evidence_way_m", o.evidence_way_m, {0.0, 1000.0},
       "a landmark seen again after this way counts 63 % in the weights; 0: every sighting counts in full");
+  schema.real(
+      "fastslam.kld_error", o.kld_error, {0.0, 1.0},
+      "keep as many particles, up to fastslam.particles, as hold this Kullback-Leibler distance to the "
+      "belief, usually 0.05; 0: always the same number");
+  schema.integer("fastslam.kld_least", o.kld_least, {1, 10'000'000}, "fewest particles to keep then");
   schema.integer("fastslam.capacity", o.capacity, {1, 1'000'000}, "most landmarks in the map");
 }
 
@@ -174,7 +178,8 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       move_(particle_blocks_),
       history_(sensor),
       edge_scans_(scans_to_tell_an_edge(sensor)),
-      ancestors_(particle_blocks_.capacity()),
+      resampling_(particle_blocks_),
+      bins_(options.kld_error > 0.0 ? static_cast<std::size_t>(options.particles) : 1),
       index_(static_cast<std::size_t>(options.capacity)),
       nobody_(particle_blocks_.capacity()),
       estimate_(initial) {
@@ -513,7 +518,7 @@ void FastSlam::weigh() {
 /// Landmarks of several hypotheses that were expected and are not seen lose those that were.
 void FastSlam::miss() {
   if (!(sensor_.detection_probability > 0.0)) return;
-  for (int k = 0; k < store_.size(); ++k)
+  for (const int k : unresolved_)
     if (store_.modes(k) > 1 && landmarks_[static_cast<std::size_t>(k)].seen_at_scan != scan_) miss(k);
 }
 
@@ -531,8 +536,7 @@ void FastSlam::miss(int landmark) {
 
 /// Landmarks may have become simpler.
 void FastSlam::refine() {
-  for (int k = 0; k < store_.size(); ++k) {
-    if (store_.form(k) == LandmarkForm::kPoint) continue;
+  for (const int k : unresolved_) {
     const Landmark& landmark = landmarks_[static_cast<std::size_t>(k)];
     if (store_.modes(k) > 1) {
       store_.touch(k);
@@ -541,6 +545,7 @@ void FastSlam::refine() {
     if (landmark.seen_at_scan == scan_ && landmark.observations % kSightingsPerRefinement == 0)
       fastslam::become_point_if_linear(store_, k, particles_, mount_, particle_blocks_);
   }
+  std::erase_if(unresolved_, [this](int k) { return store_.form(k) == LandmarkForm::kPoint; });
 }
 
 /// Only after a motion: clones of a robot that stands still would stay clones.
@@ -548,12 +553,20 @@ void FastSlam::resample() {
   if (!moved_ ||
       fastslam::effective_particles(particles_.weights()) >= options_.resample_below * particles_.count())
     return;
-  const std::span<std::int32_t> ancestors(ancestors_.data(), particles_.weights().size());
   const double u = RandomStream(seed_, StreamPurpose::kResampling, step_).uniform();
-  fastslam::choose_ancestors(particles_.weights(), u, ancestors);
+  const auto ancestors = resampling_.choose_ancestors(particles_.weights(), u, next_count());
   particles_.replace_by_ancestors(ancestors, particle_blocks_);
   store_.resample(ancestors);
   ++resamplings_;
+}
+
+/// As many as the spread of the set wants (Fox 2003), or always the same.
+std::size_t FastSlam::next_count() {
+  if (!(options_.kld_error > 0.0)) return particles_.weights().size();
+  const double wanted = std::ceil(fastslam::kld_particles(bins_.count(particles_), options_.kld_error));
+  const int least = std::min(options_.kld_least, options_.particles);
+  return static_cast<std::size_t>(
+      std::clamp(wanted, static_cast<double>(least), static_cast<double>(options_.particles)));
 }
 
 void FastSlam::add(std::span<const Observation> observations) {
@@ -576,6 +589,7 @@ void FastSlam::add(std::span<const Observation> observations) {
     else
       place(landmark, z, first.guess);
     index_.assign(innovations_[i].landmark, landmark);
+    if (store_.form(landmark) != LandmarkForm::kPoint) unresolved_.push_back(landmark);
     landmarks_.push_back({innovations_[i].landmark, 1, way_m_, scan_, scan_, range_alone_m(observations[i])});
   }
 }

@@ -12,10 +12,12 @@
 #include "waymark/fastslam/association.hpp"
 #include "waymark/fastslam/ensemble_move.hpp"
 #include "waymark/fastslam/gate_sample.hpp"
+#include "waymark/fastslam/kld.hpp"
 #include "waymark/fastslam/landmark_forms.hpp"
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/particle_step.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/resampling.hpp"
 #include "waymark/fastslam/view_history.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
@@ -42,6 +44,8 @@ struct FastSlamOptions {
   double move_above = 0.01;      ///< move 100 particles where expectations vary by more of their noise
   double evidence_way_m = 1.0;   ///< way between two sightings of a landmark that makes the second one news
   double noise_inflation = 1.0;  ///< on the standard deviations of observations
+  double kld_error = 0.0;        ///< adapt the number of particles to keep this distance; 0: always the same
+  int kld_least = 50;            ///< particles to keep then
   int capacity = 1000;           ///< most landmarks in the map
 };
 
@@ -161,6 +165,7 @@ class FastSlam final : public Filter {
   void miss(int landmark);
   void refine();
   void resample();
+  [[nodiscard]] std::size_t next_count();
   void add(std::span<const Observation> observations);
   void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess);
 
@@ -190,9 +195,11 @@ class FastSlam final : public Filter {
   std::size_t edge_scans_;
   std::vector<EdgeSighting> edges_;
   std::vector<fastslam::AcceptedSighting> accepted_;
-  AlignedArray<std::int32_t> ancestors_;
+  fastslam::Resampling resampling_;
+  fastslam::OccupiedBins bins_;
   IdIndex index_;
   std::vector<Landmark> landmarks_;  // by index in the store
+  std::vector<int> unresolved_;      // rays and rings
   std::optional<fastslam::Association> association_;
   kernels::View view_;
   std::vector<int> matched_;     // landmark of each observation that is matched

@@ -272,6 +272,7 @@ void FastSlam::forget(int landmark) {
   forgotten = landmarks_.back();
   landmarks_.pop_back();
   const bool is_moved = landmark < store_.size();
+  std::ranges::replace(unresolved_, store_.size(), landmark);
   if (is_moved && index_.find(forgotten.id)) index_.assign(forgotten.id, landmark);
 }
 

@@ -8,24 +8,7 @@
 namespace waymark::fastslam {
 namespace {
 
-// offspring_i = O_i - O_(i-1) with O_i = floor(N C_i + u), C_i the prefix sum divided by the whole sum. Both
-// are added up in the same order, so C reaches exactly 1 at the last particle of positive weight: O_N is N,
-// and no particle without weight is revived by rounding.
-void count_offspring(std::span<const double> weights, double u, std::span<std::int32_t> offspring) {
-  const auto count = static_cast<double>(weights.size());
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  double prefix = 0.0;
-  double taken = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    prefix += weights[i];
-    const double next = std::min(std::floor(count * (prefix / total) + u), count);
-    offspring[i] = static_cast<std::int32_t>(next - taken);
-    taken = next;
-  }
-}
-
-// Settled places hold their ancestor as a negative number until all are settled.
-constexpr std::int32_t settled(std::size_t ancestor) { return -1 - static_cast<std::int32_t>(ancestor); }
+constexpr std::size_t block_of(std::size_t particle) { return particle / ParticleBlocks::kBlockSize; }
 
 }  // namespace
 
@@ -34,17 +17,97 @@ double effective_particles(std::span<const double> weights) {
                                      [](double w) { return w * w; });
 }
 
-void choose_ancestors(std::span<const double> weights, double u, std::span<std::int32_t> ancestors) {
-  count_offspring(weights, u, ancestors);
-  std::size_t vacant = 0;
-  for (std::size_t i = 0; i < ancestors.size(); ++i) {
-    for (std::int32_t further = ancestors[i] - 1; further > 0; --further) {
-      while (ancestors[vacant] != 0) ++vacant;
-      ancestors[vacant] = settled(i);
+Resampling::Resampling(ParticleBlocks& blocks)
+    : blocks_(blocks),
+      offspring_(blocks.capacity()),
+      vacant_(blocks.capacity()),
+      ancestors_(blocks.capacity()),
+      before_(block_of(blocks.capacity()) + 1) {}
+
+std::span<const std::int32_t> Resampling::choose_ancestors(std::span<const double> weights, double u,
+                                                           std::size_t count) {
+  count_offspring(weights, u, count);
+  list_vacant(count);
+  settle(count);
+  return {ancestors_.data(), count};
+}
+
+/// offspring_i = O_i - O_(i-1) with O_i = floor(count C_i + u), C_i the prefix sum divided by the whole sum.
+/// At the end of a block C is that of the next block's beginning, so it is 1 at the very end; what rounding
+/// leaves over there goes to the last particle that weighs anything: none without weight is revived.
+void Resampling::count_offspring(std::span<const double> weights, double u, std::size_t count) {
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    before_[block_of(begin) + 1].weight =
+        std::accumulate(weights.begin() + static_cast<std::ptrdiff_t>(begin),
+                        weights.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+  });
+  const std::size_t blocks = block_of(weights.size() - 1) + 1;
+  before_[0].weight = 0.0;
+  for (std::size_t b = 0; b < blocks; ++b) before_[b + 1].weight += before_[b].weight;
+  const double scale = static_cast<double>(count) / before_[blocks].weight;
+  const auto taken_at = [&](double prefix, double most) {
+    return std::min(std::floor(prefix * scale + u), most);
+  };
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    const std::size_t b = block_of(begin);
+    const double all = b + 1 == blocks ? static_cast<double>(count)
+                                       : taken_at(before_[b + 1].weight, static_cast<double>(count));
+    double prefix = before_[b].weight;
+    double taken = b == 0 ? 0.0 : taken_at(prefix, static_cast<double>(count));
+    std::size_t last = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      prefix += weights[i];
+      const double next = std::max(taken_at(prefix, all), taken);
+      offspring_[i] = weights[i] > 0.0 ? static_cast<std::int32_t>(next - taken) : 0;
+      if (!(weights[i] > 0.0)) continue;
+      taken = next;
+      last = i;
     }
-    if (ancestors[i] > 0) ancestors[i] = settled(i);
+    offspring_[last] += static_cast<std::int32_t>(all - taken);
+  });
+}
+
+/// Places without offspring of their own particle, in order, and how many lie before each block.
+void Resampling::list_vacant(std::size_t count) {
+  const std::size_t particles = blocks_.particles();
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    Before& next = before_[block_of(begin) + 1];
+    next.vacant = 0;
+    next.further = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      next.vacant += i < count && offspring_[i] == 0 ? 1 : 0;
+      next.further += static_cast<std::size_t>(offspring_[i] - (keeps_place(i, count) ? 1 : 0));
+    }
+  });
+  const std::size_t blocks = block_of(particles - 1) + 1;
+  before_[0].vacant = 0;
+  before_[0].further = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    before_[b + 1].vacant += before_[b].vacant;
+    before_[b + 1].further += before_[b].further;
   }
-  for (auto& ancestor : ancestors) ancestor = -1 - ancestor;
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    std::size_t at = before_[block_of(begin)].vacant;
+    for (std::size_t i = begin; i < std::min(end, count); ++i)
+      if (offspring_[i] == 0) vacant_[at++] = static_cast<std::int32_t>(i);
+  });
+  std::size_t at = before_[blocks].vacant;
+  for (std::size_t i = particles; i < count; ++i) vacant_[at++] = static_cast<std::int32_t>(i);
+}
+
+void Resampling::settle(std::size_t count) {
+  blocks_.run([&](std::size_t begin, std::size_t end) {
+    std::size_t at = before_[block_of(begin)].further;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto ancestor = static_cast<std::int32_t>(i);
+      std::int32_t further = offspring_[i];
+      if (keeps_place(i, count)) {
+        ancestors_[i] = ancestor;
+        --further;
+      }
+      for (; further > 0; --further) ancestors_[static_cast<std::size_t>(vacant_[at++])] = ancestor;
+    }
+  });
 }
 
 }  // namespace waymark::fastslam
