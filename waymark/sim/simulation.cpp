@@ -8,6 +8,7 @@
 #include "waymark/core/random.hpp"
 #include "waymark/sim/landmark_sensor.hpp"
 #include "waymark/sim/path.hpp"
+#include "waymark/sim/rooms.hpp"
 #include "waymark/sim/wheels.hpp"
 #include "waymark/sim/world.hpp"
 
@@ -19,11 +20,13 @@ constexpr double kEventsMax = 1e7;
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
 
-std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& options) {
+using Numbers = std::vector<std::pair<std::string, double>>;
+
+Numbers sensor_settings(const SimOptions& options) {
   const WheelGeometry wheels = geometry(options.wheels);
   const OdometryNoise noise = assumed_noise(options.wheels);
   const LandmarkSensor sensor = model_of(options.sensor);
-  const std::vector<std::pair<std::string, double>> values{
+  return {
       {"wheels.left_radius_m", wheels.left_radius_m},
       {"wheels.right_radius_m", wheels.right_radius_m},
       {"wheels.track_m", wheels.track_m},
@@ -42,6 +45,36 @@ std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& o
       {"sensor.max_range_m", sensor.max_range_m},
       {"sensor.field_of_view_deg", sensor.field_of_view_deg},
   };
+}
+
+Numbers camera_settings(const CameraOptions& camera) {
+  return {
+      {"camera.width_px", camera.width_px},
+      {"camera.height_px", camera.height_px},
+      {"camera.fu_px", camera.fu_px},
+      {"camera.fv_px", camera.fv_px},
+      {"camera.cu_px", camera.cu_px},
+      {"camera.cv_px", camera.cv_px},
+      {"camera.k1", camera.distortion.k1},
+      {"camera.k2", camera.distortion.k2},
+      {"camera.p1", camera.distortion.p1},
+      {"camera.p2", camera.distortion.p2},
+      {"camera.k3", camera.distortion.k3},
+      {"camera.mount_x_m", camera.mount.x_m},
+      {"camera.mount_y_m", camera.mount.y_m},
+      {"camera.mount_z_m", camera.mount.z_m},
+      {"camera.mount_roll_deg", camera.mount.roll_deg},
+      {"camera.mount_pitch_deg", camera.mount.pitch_deg},
+      {"camera.mount_yaw_deg", camera.mount.yaw_deg},
+  };
+}
+
+bool has_images(const SimOptions& options) { return options.room.scene != SceneKind::kNone; }
+
+std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& options) {
+  Numbers values = sensor_settings(options);
+  if (has_images(options))
+    std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(values));
   std::vector<std::pair<std::string, std::string>> settings;
   for (const auto& [key, value] : values) settings.emplace_back(key, fmt::format("{}", value));
   return settings;
@@ -115,10 +148,14 @@ void add_truth(std::vector<Event>& events, const Drive& drive, const TruthOption
   for (const Stamp stamp : stamps) events.push_back(truth_event(drive, stamp, options.heading));
 }
 
+void add_images(std::vector<Event>& events, const Film& film) {
+  for (std::size_t i = 0; i < film.size(); ++i) events.emplace_back(film.stamp(i), Image{});
+}
+
 Result<void> check_size(const Path& path, const SimOptions& options) {
   const double duration_s = options.path.laps * lap_duration_s(path, options);
-  const double events =
-      duration_s * (options.wheels.rate_hz + options.sensor.rate_hz + options.truth.rate_hz);
+  const double events = duration_s * (options.wheels.rate_hz + options.sensor.rate_hz +
+                                      options.truth.rate_hz + options.film.rate_hz);
   if (events <= kEventsMax) return {};
   return Error{
       fmt::format("simulation: the drive would take {:.0f} s and {:.2g} events, at most {:.2g} can be made; "
@@ -129,7 +166,7 @@ Result<void> check_size(const Path& path, const SimOptions& options) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const SimOptions& options,
-                                                     std::uint64_t seed) {
+                                                     std::uint64_t seed, int threads) {
   if (auto valid = validate(options); !valid) return valid.error();
   const Path path = make_path(options.path, seed);
   if (auto size = check_size(path, options); !size) return size.error();
@@ -141,7 +178,20 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);
   add_truth(events, driven, options.truth);
-  return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events)));
+  std::unique_ptr<Film> film;
+  if (has_images(options)) {
+    film = std::make_unique<Film>(options.film, build_scene(options.room, path, seed), driven, seed, threads);
+    add_images(events, *film);
+  }
+  return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events), std::move(film)));
+}
+
+Result<std::optional<Event>> Simulation::next() {
+  auto event = EventList::next();
+  if (event && *event)
+    if (auto* image = std::get_if<Image>(&(**event).content))
+      image->pixels = std::make_shared<const GreyImage>(film_->take(images_taken_++));
+  return event;
 }
 
 }  // namespace waymark::sim
