@@ -206,7 +206,8 @@ SimOptions report(Shape shape) {
 }
 
 /// A camera at 30 images/s on wheels whose encoders are read as often. They are calibrated like those of the
-/// study, for a lap at 0.5 m/s whose corners are driven with a radius of 0.5 m.
+/// study (RoomDriftsByOnePointSixMetresPerLap), for a lap at 0.5 m/s whose corners are driven with a radius
+/// of 0.5 m.
 SimOptions filmed(SceneKind scene) {
   SimOptions options = study();
   options.path.laps = 1;
@@ -214,6 +215,7 @@ SimOptions filmed(SceneKind scene) {
   options.path.speed_mps = 0.5;
   options.world.landmarks = 0;
   options.wheels.rate_hz = 30.0;
+  options.wheels.var_m2_per_m = 3.5e-4;
   options.truth.rate_hz = 30.0;
   options.room = {
       .scene = scene, .margin_m = 2.0, .height_m = 2.5, .blocks = 24, .walkers = 1, .walker_speed_mps = 1.0};

@@ -19,9 +19,9 @@ constexpr int kTileWidth = Renderer::kTileWidth;
 constexpr int kTileHeight = 16;
 constexpr std::size_t kTileRays = kTileWidth * kTileHeight;
 static_assert(kTileRays % kernels::kRayLanes == 0 && kernels::kNoisePixels % kTileWidth == 0);
-// Rays of a pixel at an edge, along either side.
-constexpr std::size_t kSubRays = 4;
-constexpr std::size_t kRaysAtEdge = kSubRays * kSubRays;
+constexpr std::size_t kRaysAtEdge = 16;
+// As wide apart, in parts of a pixel, as if they stood in rows.
+constexpr float kSpacingAtEdge = 0.25F;
 constexpr double kNear_m = 0.005;
 constexpr float kEndless = 1e9F;
 
@@ -88,11 +88,13 @@ struct SubRayOffsets {
   std::array<float, kRaysAtEdge> du{}, dv{};
 };
 
+// Hammersley's points: all columns differ and all rows, so that edges along either move evenly.
 constexpr SubRayOffsets sub_ray_offsets() {
   SubRayOffsets offsets;
   for (std::size_t k = 0; k < kRaysAtEdge; ++k) {
-    offsets.du[k] = (static_cast<float>(k % kSubRays) + 0.5F) / kSubRays - 0.5F;
-    offsets.dv[k] = (static_cast<float>(k / kSubRays) + 0.5F) / kSubRays - 0.5F;
+    const std::size_t reversed = (k & 1) << 3 | (k & 2) << 1 | (k & 4) >> 1 | (k & 8) >> 3;
+    offsets.du[k] = (static_cast<float>(k) + 0.5F) / kRaysAtEdge - 0.5F;
+    offsets.dv[k] = (static_cast<float>(reversed) + 0.5F) / kRaysAtEdge - 0.5F;
   }
   return offsets;
 }
@@ -121,7 +123,7 @@ struct Batch {
 
   void trace(const std::vector<TexturedRectangle>& rectangles, float spacing_x, float spacing_y,
              float* image) {
-    kernels::trace_rays({x.data(), y.data(), spacing_x / kSubRays, spacing_y / kSubRays},
+    kernels::trace_rays({x.data(), y.data(), spacing_x * kSpacingAtEdge, spacing_y * kSpacingAtEdge},
                         pixels * kRaysAtEdge, rectangles.data(), rectangles.size(), grey.data(), id.data());
     for (std::size_t i = 0; i < pixels; ++i) {
       float sum = 0.0F;
