@@ -1,7 +1,5 @@
 #include "waymark/kernels/zmssd.hpp"
 
-#include <memory>
-
 #include "waymark/core/grey_image.hpp"
 
 #include "kernels/kernel_support.hpp"
@@ -20,31 +18,49 @@ GreyImage noise(int width_px, int height_px, RandomStream& random) {
 
 class Zmssd : public test::OnEveryInstructionSet {
  protected:
-  // Windows side by side in an image that holds them and not one pixel more.
-  void check(int size, int count) {
+  // Windows in an image that holds them and not one pixel more.
+  void check(int size, const std::vector<WindowRow>& rows) {
+    int last = 0;
+    std::size_t windows = 0;
+    for (const WindowRow& row : rows) {
+      last = std::max(last, row.first + row.count);
+      windows += static_cast<std::size_t>(row.count);
+    }
     const GreyImage patch = noise(size, size, random_);
-    const GreyImage image = noise(count + size - 1, size, random_);
-    // Exactly as much memory as there are pixels, so that a sanitizer sees every read beyond them.
-    const std::size_t bytes = static_cast<std::size_t>(image.width_px()) * static_cast<std::size_t>(size);
-    const auto pixels = std::make_unique<std::uint8_t[]>(bytes);
-    std::copy_n(image.data(), bytes, pixels.get());
-    std::vector<std::uint32_t> scores(static_cast<std::size_t>(count) + 1, 12345U);
-    zmssd_row(make_zmssd_patch(patch.data(), size, size), pixels.get(), image.stride(),
-              static_cast<std::size_t>(count), scores.data());
-    for (int u = 0; u < count; ++u) {
-      ASSERT_EQ(scores[static_cast<std::size_t>(u)],
-                reference::zmssd(patch.data(), size, pixels.get() + u, image.stride(), size))
-          << "size " << size << ", window " << u << " of " << count;
+    const GreyImage image = noise(last + size - 1, static_cast<int>(rows.size()) + size - 1, random_);
+    std::vector<std::uint32_t> scores(windows + 1, 12345U);
+    zmssd_search(make_zmssd_patch(patch.data(), size, size), image.data(), image.stride(), rows.data(),
+                 rows.size(), scores.data());
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u, ++at) {
+        const std::uint8_t* window = image.view().pixel(u, static_cast<int>(k));
+        ASSERT_EQ(scores[at], reference::zmssd(patch.data(), size, window, image.stride(), size))
+            << "size " << size << ", window " << u << " of row " << k << " of " << rows.size();
+      }
     }
     EXPECT_EQ(scores.back(), 12345U) << "written behind the last score";
   }
+
+  int draw(int low, int high) { return static_cast<int>(random_.uniform(low, high + 1)); }
 };
 
 WAYMARK_ON_EVERY_INSTRUCTION_SET(Zmssd);
 
 TEST_P(Zmssd, HasTheBitsOfThePlainFormulaAtEverySizeAndCount) {
   for (const int size : kSizes)
-    for (int count = 1; count <= 140; ++count) check(size, count);
+    for (int count = 1; count <= 140; ++count) check(size, {{0, count}});
+}
+
+TEST_P(Zmssd, HasTheBitsOfThePlainFormulaInSearchesOfAnyShape) {
+  for (int i = 0; i < 100; ++i) {
+    std::vector<WindowRow> rows(static_cast<std::size_t>(draw(1, 60)));
+    const int widest = draw(1, i % 2 == 0 ? 20 : 150);
+    const double empty = random_.uniform(0.0, 0.9);
+    for (WindowRow& row : rows)
+      if (random_.uniform() >= empty) row = {draw(0, widest), draw(0, widest)};
+    for (const int size : kSizes) check(size, rows);
+  }
 }
 
 TEST_P(Zmssd, HoldsItsLargestValues) {
@@ -57,7 +73,8 @@ TEST_P(Zmssd, HoldsItsLargestValues) {
     }
   }
   std::uint32_t score = 0;
-  zmssd_row(make_zmssd_patch(patch.data(), 16, 16), opposite.data(), 16, 1, &score);
+  const WindowRow row{0, 1};
+  zmssd_search(make_zmssd_patch(patch.data(), 16, 16), opposite.data(), 16, &row, 1, &score);
   EXPECT_EQ(score, 256U * 256U * 255U * 255U);
 }
 
@@ -71,7 +88,8 @@ TEST_P(Zmssd, IsBlindToAChangeOfBrightness) {
     }
   }
   std::uint32_t score = 1;
-  zmssd_row(make_zmssd_patch(patch.data(), 16, 16), brighter.data(), 16, 1, &score);
+  const WindowRow row{0, 1};
+  zmssd_search(make_zmssd_patch(patch.data(), 16, 16), brighter.data(), 16, &row, 1, &score);
   EXPECT_EQ(score, 0U);
 }
 

@@ -1,6 +1,7 @@
 #include "waymark/kernels/zmssd.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #ifndef WAYMARK_KERNELS_ZMSSD_PLAIN
 #define WAYMARK_KERNELS_ZMSSD_PLAIN
@@ -36,65 +37,96 @@ HWY_BEFORE_NAMESPACE();
 namespace waymark::kernels::HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
-void score_row(const ZmssdPatch& patch, const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count,
-               std::uint32_t* scores) {
-  for (std::size_t k = 0; k < count; ++k)
-    scores[k] = plain_zmssd([&](int r, int c) { return patch.rows[r][c]; }, first + k, stride, patch.size);
+void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
+            std::size_t row_count, std::uint32_t* scores) {
+  const auto patch_at = [&](int r, int c) { return patch.rows[r][c]; };
+  for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
+    for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
+      *scores++ = plain_zmssd(patch_at, pixels + u, stride, patch.size);
 }
 
 #else
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kChunk = 64;  // windows at a time
-// The strip of image below a chunk of windows, and what vectors read behind it.
-constexpr int kColumns = kChunk + kMaxPatchSize + ZmssdPatch::kLanes;
+constexpr int kBand = 64;  // windows side by side
+// The columns of image below a band of windows, and what vectors read behind them.
+constexpr int kColumns = kBand + kMaxPatchSize + ZmssdPatch::kLanes;
+constexpr int kRing =
+    32;  // rows of image that are kept: the row that leaves the windows and the one that comes
 
-// What a chunk of windows has in common.
-struct Strip {
-  alignas(64) std::int16_t pixels[kMaxPatchSize][kColumns];
-  alignas(64) std::uint16_t sum[kColumns];  // of each column of pixels
-  alignas(64) std::uint32_t sum_of_squares[kColumns];
+// What the windows of a row of a band have in common. Goes down the image row by row.
+struct Band {
+  alignas(64) std::int16_t pixels[kRing][kColumns];  // zero behind the last column
+  alignas(64) std::uint16_t sum[kColumns];           // of each column of pixels as high as the windows
+  alignas(64) std::uint32_t squares[kColumns];
   alignas(64) std::int32_t products[kColumns];  // sum d i of each window
+
+  const std::int16_t* rows[kMaxPatchSize];  // of pixels that the windows cover
+  int columns = 0;
+  int from = 0, to = 0;  // rows of image that were taken in without a gap
 };
 
-// Widens the strip's columns u to u + lanes and sums them up.
+template <class Value>
+HWY_INLINE void zero(Value* values, int count) {
+  const hn::CappedTag<Value, 32 / sizeof(Value)> d;
+  for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) hn::StoreU(hn::Zero(d), d, values + k);
+}
+
+// All columns of a row; the last vector overlaps the one before it instead of reading behind the row.
 template <class D>
-HWY_INLINE void widen_columns(D d16, const std::uint8_t* first, std::ptrdiff_t stride, int rows, int u,
-                              Strip& strip) {
-  const hn::RebindToSigned<D> signed16;
+HWY_INLINE void widen(D d16, const std::uint8_t* pixels, int columns, std::int16_t* wide) {
   const hn::Rebind<std::uint8_t, D> d8;
-  const hn::RepartitionToWide<D> d32;
-  auto sum = hn::Zero(d16);
-  auto squares_low = hn::Zero(d32), squares_high = hn::Zero(d32);
-  for (int r = 0; r < rows; ++r) {
-    const auto pixels = hn::PromoteTo(d16, hn::LoadU(d8, first + r * stride + u));
-    hn::StoreU(hn::BitCast(signed16, pixels), signed16, &strip.pixels[r][u]);
-    const auto squares = hn::Mul(pixels, pixels);  // 255^2 fits
-    sum = hn::Add(sum, pixels);
-    squares_low = hn::Add(squares_low, hn::PromoteTo(d32, hn::LowerHalf(squares)));
-    squares_high = hn::Add(squares_high, hn::PromoteTo(d32, hn::UpperHalf(hn::Half<D>(), squares)));
-  }
-  hn::StoreU(sum, d16, strip.sum + u);
-  hn::StoreU(squares_low, d32, strip.sum_of_squares + u);
-  hn::StoreU(squares_high, d32, strip.sum_of_squares + u + hn::Lanes(d32));
-}
-
-// All columns; the last vector overlaps the one before it instead of reading behind the strip.
-template <class D>
-HWY_INLINE void widen_strip(D d16, const std::uint8_t* first, std::ptrdiff_t stride, int rows, int columns,
-                            Strip& strip) {
   const int lanes = static_cast<int>(hn::Lanes(d16));
-  for (int u = 0; u + lanes < columns; u += lanes) widen_columns(d16, first, stride, rows, u, strip);
-  widen_columns(d16, first, stride, rows, columns - lanes, strip);
+  const auto widen_at = [&](int u) HWY_ATTR {
+    hn::StoreU(hn::PromoteTo(d16, hn::LoadU(d8, pixels + u)), d16, wide + u);
+  };
+  for (int u = 0; u + lanes < columns; u += lanes) widen_at(u);
+  widen_at(columns - lanes);
 }
 
-// What vectors read behind the last column counts for nothing, but must be something.
-HWY_INLINE void zero_behind(int rows, int columns, Strip& strip) {
-  const hn::CappedTag<std::int16_t, ZmssdPatch::kLanes> d;
-  for (int r = 0; r < rows; ++r)
-    for (std::size_t k = 0; k < ZmssdPatch::kLanes; k += hn::Lanes(d))
-      hn::StoreU(hn::Zero(d), d, &strip.pixels[r][columns] + k);
+// Takes one row of pixels into the sums of the columns and another one out.
+HWY_INLINE void exchange(const std::int16_t* come, const std::int16_t* leave, Band& band) {
+  const hn::CappedTag<std::uint16_t, 16> d16;
+  const hn::RebindToSigned<decltype(d16)> signed16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  const int half = static_cast<int>(hn::Lanes(d32));
+  for (int u = 0; u < band.columns; u += 2 * half) {
+    const auto in = hn::BitCast(d16, hn::LoadU(signed16, come + u));
+    const auto out = hn::BitCast(d16, hn::LoadU(signed16, leave + u));
+    hn::Store(hn::Add(hn::Load(d16, band.sum + u), hn::Sub(in, out)), d16, band.sum + u);
+    const auto squares_in = hn::Mul(in, in), squares_out = hn::Mul(out, out);  // 255^2 fits
+    const auto add = [&](auto more, auto less, std::uint32_t* at) HWY_ATTR {
+      const auto change = hn::Sub(hn::PromoteTo(d32, more), hn::PromoteTo(d32, less));
+      hn::Store(hn::Add(hn::Load(d32, at), change), d32, at);
+    };
+    const hn::Half<decltype(d16)> d_half;
+    add(hn::LowerHalf(squares_in), hn::LowerHalf(squares_out), band.squares + u);
+    add(hn::UpperHalf(d_half, squares_in), hn::UpperHalf(d_half, squares_out), band.squares + u + half);
+  }
+}
+
+HWY_INLINE std::int16_t* ring_row(Band& band, int v) { return band.pixels[static_cast<unsigned>(v) % kRing]; }
+
+// Goes down to the windows whose first pixels are in row v; `pixels` is that row.
+HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stride, int size, Band& band) {
+  alignas(64) static constexpr std::int16_t kNone[kColumns] = {};
+  if (band.to <= v) {
+    zero(band.sum, kColumns);
+    zero(band.squares, kColumns);
+    band.from = band.to = v;
+  }
+  for (; band.to < v + size; ++band.to) {
+    const std::uint8_t* row = pixels + (band.to - v) * stride;
+    std::int16_t* come = ring_row(band, band.to);
+    if (band.columns >= 16)
+      widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, come);
+    else
+      widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, come);
+    const int left = band.to - size;
+    exchange(come, left >= band.from ? ring_row(band, left) : kNone, band);
+  }
+  for (int r = 0; r < size; ++r) band.rows[r] = ring_row(band, v + r);
 }
 
 // Sums of neighbouring lanes of four vectors: each block of four lanes holds that of a, b, c and d.
@@ -110,10 +142,10 @@ HWY_INLINE V sums_of_blocks(V a, V b, V c, V d) {
                  hn::BitCast(d32, hn::InterleaveUpper(d64, ab, cd)));
 }
 
-// sum d i of the windows u .. u + 3, and of those at u + kWidth, u + 2 kWidth, ... as far as a vector
-// reaches.
+// sum d i of the windows u .. u + 3, and of those at u + kWidth, u + 2 kWidth, ... as far as a
+// vector reaches.
 template <int kWidth, class D>
-HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Strip& strip) {
+HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Band& band) {
   const hn::RepartitionToWide<D> d32;
   const hn::FixedTag<std::int32_t, 4> block;
   constexpr int kVector = static_cast<int>(hn::MaxLanes(D()));
@@ -121,10 +153,11 @@ HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Strip& stri
   hn::Vec<decltype(d32)> even[4], odd[4];
   for (int k = 0; k < 4; ++k) even[k] = odd[k] = hn::Zero(d32);
   for (int r = 0; r < patch.size; ++r) {
+    const std::int16_t* pixels = band.rows[r] + u;
     for (int part = 0; part < kReach; part += kVector) {
       const auto d = hn::Load(d16, &patch.rows[r][part]);
       for (int k = 0; k < 4; ++k) {
-        const auto i = hn::LoadU(d16, &strip.pixels[r][u + k + part]);
+        const auto i = hn::LoadU(d16, pixels + k + part);
         even[k] = hn::ReorderWidenMulAccumulate(d32, d, i, even[k], odd[k]);
       }
     }
@@ -136,69 +169,80 @@ HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Strip& stri
     constexpr int kBlocks = std::min(kWidth, kVector) / 8;
     auto sum = hn::Load(block, sums + w / 2);
     if constexpr (kBlocks == 2) sum = hn::Add(sum, hn::Load(block, sums + w / 2 + 4));
-    hn::StoreU(sum, block, strip.products + u + w);
+    hn::StoreU(sum, block, band.products + u + w);
   }
 }
 
+// ... of the windows begin <= u < end.
 template <int kWidth, class D>
-HWY_INLINE void multiply(D d16, const ZmssdPatch& patch, int count, Strip& strip) {
-  constexpr int kVector = static_cast<int>(hn::MaxLanes(D()));
-  constexpr int kReach = kVector < kWidth ? kWidth : kVector;
-  for (int from = 0; from < count; from += kReach)
-    for (int u = from; u < std::min(from + kWidth, count); u += 4)
-      multiply_four<kWidth>(d16, patch, u, strip);
+HWY_INLINE void multiply(D d16, const ZmssdPatch& patch, int begin, int end, Band& band) {
+  constexpr int kReach = std::max(static_cast<int>(hn::MaxLanes(D())), kWidth);
+  for (int from = begin; from < end; from += kReach)
+    for (int u = from; u < std::min(from + kWidth, end); u += 4) multiply_four<kWidth>(d16, patch, u, band);
 }
 
-// A vector serves several windows where there are enough of them.
+// A long vector serves several windows, where there are enough of them.
 template <int kWidth>
-HWY_INLINE void multiply_best(const ZmssdPatch& patch, int count, Strip& strip) {
+HWY_INLINE void multiply_best(const ZmssdPatch& patch, int begin, int end, Band& band) {
   const hn::CappedTag<std::int16_t, ZmssdPatch::kLanes> wide;
   const hn::CappedTag<std::int16_t, kWidth> narrow;
-  if (2 * count > 3 * kWidth)
-    multiply<kWidth>(wide, patch, count, strip);
+  if (end - begin > 2 * kWidth)
+    multiply<kWidth>(wide, patch, begin, end, band);
   else
-    multiply<kWidth>(narrow, patch, count, strip);
+    multiply<kWidth>(narrow, patch, begin, end, band);
 }
 
-HWY_INLINE void finish(const ZmssdPatch& patch, int count, const Strip& strip, std::uint32_t* scores) {
+HWY_INLINE void finish(const ZmssdPatch& patch, int begin, int end, const Band& band, std::uint32_t* scores) {
   const hn::CappedTag<std::uint32_t, 8> d32;
   const hn::Rebind<std::uint16_t, decltype(d32)> d16;
   const auto n = hn::Set(d32, static_cast<std::uint32_t>(patch.size * patch.size));
   const auto patch_sum = hn::Set(d32, patch.sum), patch_squares = hn::Set(d32, patch.sum_of_squares);
-  alignas(64) std::uint32_t all[kChunk];
-  for (int u = 0; u < count; u += static_cast<int>(hn::Lanes(d32))) {
+  alignas(64) std::uint32_t all[kBand];
+  for (int u = begin; u < end; u += static_cast<int>(hn::Lanes(d32))) {
     auto sum = hn::Zero(d16);
     auto squares = hn::Zero(d32);
     for (int k = 0; k < patch.size; ++k) {
-      sum = hn::Add(sum, hn::LoadU(d16, strip.sum + u + k));  // of 256 pixels fits
-      squares = hn::Add(squares, hn::LoadU(d32, strip.sum_of_squares + u + k));
+      sum = hn::Add(sum, hn::LoadU(d16, band.sum + u + k));  // of 256 pixels fits
+      squares = hn::Add(squares, hn::LoadU(d32, band.squares + u + k));
     }
-    const auto products =
-        hn::BitCast(d32, hn::LoadU(hn::RebindToSigned<decltype(d32)>(), strip.products + u));
+    const auto products = hn::BitCast(d32, hn::LoadU(hn::RebindToSigned<decltype(d32)>(), band.products + u));
     const auto ssd = hn::Sub(hn::Add(patch_squares, squares), hn::Add(products, products));
     const auto shift = hn::Sub(patch_sum, hn::PromoteTo(d32, sum));
-    hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + u);
+    hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + (u - begin));
   }
-  std::copy_n(all, count, scores);
+  std::copy_n(all, end - begin, scores);
 }
 
-void score_row(const ZmssdPatch& patch, const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count,
-               std::uint32_t* scores) {
-  Strip strip;
-  for (std::size_t done = 0; done < count; done += kChunk, first += kChunk, scores += kChunk) {
-    const int windows = static_cast<int>(std::min<std::size_t>(count - done, kChunk));
-    const int columns = windows + patch.size - 1;
-    if (columns >= 16)
-      widen_strip(hn::CappedTag<std::uint16_t, 16>(), first, stride, patch.size, columns, strip);
-    else
-      widen_strip(hn::CappedTag<std::uint16_t, 8>(), first, stride, patch.size, columns, strip);
-    zero_behind(patch.size, columns, strip);
+// The windows of all rows in the columns first to first + width - 1.
+void search_band(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                 const WindowRow* rows, std::size_t row_count, int first, int width, std::uint32_t* scores) {
+  Band band;
+  band.columns = width + patch.size - 1;
+  for (auto& row : band.pixels) zero(row + band.columns, ZmssdPatch::kLanes);
+  for (std::size_t k = 0; k < row_count; scores += rows[k].count, ++k) {
+    const int begin = std::max(rows[k].first - first, 0);
+    const int end = std::min(rows[k].first + rows[k].count - first, width);
+    if (begin >= end) continue;
+    const int v = static_cast<int>(k);
+    go_to_row(v, pixels + v * stride + first, stride, patch.size, band);
     if (patch.size == 8)
-      multiply_best<8>(patch, windows, strip);
+      multiply_best<8>(patch, begin, end, band);
     else
-      multiply_best<16>(patch, windows, strip);
-    finish(patch, windows, strip, scores);
+      multiply_best<16>(patch, begin, end, band);
+    finish(patch, begin, end, band, scores + (first + begin - rows[k].first));
   }
+}
+
+void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
+            std::size_t row_count, std::uint32_t* scores) {
+  int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+  for (std::size_t k = 0; k < row_count; ++k) {
+    if (rows[k].count <= 0) continue;
+    first = std::min(first, rows[k].first);
+    last = std::max(last, rows[k].first + rows[k].count);
+  }
+  for (; first < last; first += kBand)
+    search_band(patch, pixels, stride, rows, row_count, first, std::min(last - first, kBand), scores);
 }
 
 #endif
@@ -209,7 +253,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace waymark::kernels {
 
-HWY_EXPORT(score_row);
+HWY_EXPORT(search);
 
 ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, int size) {
   ZmssdPatch patch;
@@ -226,9 +270,9 @@ ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, i
   return patch;
 }
 
-void zmssd_row(const ZmssdPatch& patch, const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count,
-               std::uint32_t* scores) {
-  HWY_DYNAMIC_DISPATCH(score_row)(patch, first, stride, count, scores);
+void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                  const WindowRow* rows, std::size_t row_count, std::uint32_t* scores) {
+  HWY_DYNAMIC_DISPATCH(search)(patch, pixels, stride, rows, row_count, scores);
 }
 
 namespace reference {

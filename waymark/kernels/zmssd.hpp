@@ -22,17 +22,24 @@ struct ZmssdPatch {
 /// size: kMinPatchSize to kMaxPatchSize.
 [[nodiscard]] ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, int size);
 
-/// The zero-mean sum of squared differences between a patch d and `count` windows i of an image, whose first
-/// pixels are first, first + 1, ..., in whole numbers (Vincke et al. 2012, equation 14, times the n pixels of
-/// the patch):
+/// Windows side by side in one row of a search; may be none.
+struct WindowRow {
+  int first = 0;  ///< column of the first pixel of the first window
+  int count = 0;
+};
+
+/// The zero-mean sum of squared differences between a patch d and windows i of an image in whole numbers
+/// (Vincke et al. 2012, equation 14, times the n pixels of the patch):
 ///
-///     scores[k] = n sum (d - i)^2 - (sum d - sum i)^2 = n ZMSSD
+///     n sum (d - i)^2 - (sum d - sum i)^2 = n ZMSSD
 ///
-/// It is at most 256 * 256 * 255^2 - ... < 2^32 for 16 x 16 pixels, and has the same bits on every processor.
-/// Reads the pixels of the windows and no others. Expanded, only sum d i is left to do per window: a few
-/// nanoseconds of a 16 x 16 patch.
-void zmssd_row(const ZmssdPatch& patch, const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count,
-               std::uint32_t* scores);
+/// It is at most 256 * 256 * 255^2 < 2^32 for 16 x 16 pixels, and has the same bits on every processor.
+/// The first pixels of the windows of rows[k] lie in the k-th row of the image from `pixels` on; the scores
+/// are one behind the other as the windows are. Reads no pixels but those of the rectangle around all
+/// windows. Of the formula, multiplied out, only sum d i is left to do per window: some nanoseconds at 16 x
+/// 16 pixels.
+void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                  const WindowRow* rows, std::size_t row_count, std::uint32_t* scores);
 
 namespace reference {
 
