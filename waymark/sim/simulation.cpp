@@ -20,13 +20,13 @@ constexpr double kEventsMax = 1e7;
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
 
-using Numbers = std::vector<std::pair<std::string, double>>;
+using Settings = std::vector<std::pair<std::string, std::string>>;
 
-Numbers sensor_settings(const SimOptions& options) {
+Settings sensor_settings(const SimOptions& options) {
   const WheelGeometry wheels = geometry(options.wheels);
   const OdometryNoise noise = assumed_noise(options.wheels);
   const LandmarkSensor sensor = model_of(options.sensor);
-  return {
+  const std::vector<std::pair<std::string, double>> values{
       {"wheels.left_radius_m", wheels.left_radius_m},
       {"wheels.right_radius_m", wheels.right_radius_m},
       {"wheels.track_m", wheels.track_m},
@@ -45,38 +45,25 @@ Numbers sensor_settings(const SimOptions& options) {
       {"sensor.max_range_m", sensor.max_range_m},
       {"sensor.field_of_view_deg", sensor.field_of_view_deg},
   };
+  Settings settings;
+  for (const auto& [key, value] : values) settings.emplace_back(key, fmt::format("{}", value));
+  return settings;
 }
 
-Numbers camera_settings(const CameraOptions& camera) {
-  return {
-      {"camera.width_px", camera.width_px},
-      {"camera.height_px", camera.height_px},
-      {"camera.fu_px", camera.fu_px},
-      {"camera.fv_px", camera.fv_px},
-      {"camera.cu_px", camera.cu_px},
-      {"camera.cv_px", camera.cv_px},
-      {"camera.k1", camera.distortion.k1},
-      {"camera.k2", camera.distortion.k2},
-      {"camera.p1", camera.distortion.p1},
-      {"camera.p2", camera.distortion.p2},
-      {"camera.k3", camera.distortion.k3},
-      {"camera.mount_x_m", camera.mount.x_m},
-      {"camera.mount_y_m", camera.mount.y_m},
-      {"camera.mount_z_m", camera.mount.z_m},
-      {"camera.mount_roll_deg", camera.mount.roll_deg},
-      {"camera.mount_pitch_deg", camera.mount.pitch_deg},
-      {"camera.mount_yaw_deg", camera.mount.yaw_deg},
-  };
+Settings camera_settings(CameraOptions camera) {
+  Schema schema;
+  describe(schema, camera);
+  Settings settings;
+  for (const std::string& key : schema.keys()) settings.emplace_back(key, schema.value(key));
+  return settings;
 }
 
 bool has_images(const SimOptions& options) { return options.room.scene != SceneKind::kNone; }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& options) {
-  Numbers values = sensor_settings(options);
+Settings settings_of(const SimOptions& options) {
+  Settings settings = sensor_settings(options);
   if (has_images(options))
-    std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(values));
-  std::vector<std::pair<std::string, std::string>> settings;
-  for (const auto& [key, value] : values) settings.emplace_back(key, fmt::format("{}", value));
+    std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(settings));
   return settings;
 }
 
