@@ -1,5 +1,6 @@
 #include "waymark/sim/film.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -140,6 +141,26 @@ TEST(Film, ImageGetsBrighterByTheBrightness) {
     ++compared;
   }
   EXPECT_GT(compared, 100);
+}
+
+TEST(Film, ACoveredLensShowsNothingButNoise) {
+  FilmOptions covered;
+  covered.covered_from_s = 1.0;
+  covered.covered_for_s = 2.0;
+  Take take(covered);
+  const auto lightest = [&](std::size_t image) {
+    const GreyImage taken = take.film.take(image);
+    return *std::max_element(taken.data(), taken.data() + 320 * 240);
+  };
+  EXPECT_GT(lightest(29), 100);
+  EXPECT_LT(lightest(30), 12);
+  EXPECT_LT(lightest(89), 12);
+  EXPECT_GT(lightest(90), 100);
+}
+
+TEST(Film, StampsAndNumbersOfImagesAreInverse) {
+  const Take take(ideal());
+  for (std::size_t i = 0; i < take.film.size(); ++i) ASSERT_EQ(take.film.number(take.film.stamp(i)), i);
 }
 
 double sharpness_across(const GreyImage& image) {

@@ -383,6 +383,21 @@ TEST(Simulation, ImagesAreTheSameBitsForASeedOnAnyNumberOfThreads) {
   EXPECT_NE(images, images_of(8, 1));
 }
 
+TEST(Simulation, LostImagesLeaveTheOthersAsTheyWere) {
+  SimOptions options = short_film();
+  options.film.rate_hz = 10.0;
+  const auto all = simulate(options).all<Image>();
+  options.film.drop_probability = 0.5;
+  const auto some = simulate(options).all<Image>();
+  EXPECT_LT(some.size(), all.size() - 5);
+  EXPECT_GT(some.size(), 5u);
+  for (const auto& [stamp, image] : some) {
+    const auto same = std::ranges::find(all, stamp, &std::pair<Stamp, Image>::first);
+    ASSERT_NE(same, all.end());
+    EXPECT_EQ(*image.pixels, *same->second.pixels);
+  }
+}
+
 TEST(Simulation, TellsTheCameraInTheKeysOfItsModel) {
   SimOptions options = short_film();
   options.film.mount.pitch_deg = 3.0;

@@ -40,8 +40,8 @@ struct Rays {
 inline constexpr std::size_t kRayLanes = 16;
 
 /// What each of `count` rays hits first: grey, texture filtered over the spacing, and the rectangle's id; 0
-/// and -1 where there is nothing. Same bits on every processor. About 1 ns per ray and rectangle, and 5 ns
-/// for the texture.
+/// and -1 where there is nothing. Same bits on every processor. Some 7 ns per ray among a few rectangles,
+/// most of it waiting for texels.
 void trace_rays(const Rays& rays, std::size_t count, const TexturedRectangle* rectangles,
                 std::size_t rectangle_count, float* grey, std::int32_t* id);
 

@@ -10,7 +10,7 @@ namespace waymark::sim {
 namespace {
 
 // One stream of images for each of these, and one number per jump in brightness.
-enum Draw : std::uint32_t { kPitch, kRoll, kHeight, kDrift, kJump };
+enum Draw : std::uint32_t { kPitch, kRoll, kHeight, kDrift, kJump, kDrop };
 
 RandomStream stream(std::uint64_t seed, Draw what, std::uint64_t step = 0) {
   return {seed, StreamPurpose::kImages, step, what};
@@ -75,6 +75,14 @@ std::size_t Film::size() const {
   return count;
 }
 
+bool Film::is_lost(std::size_t image) const {
+  return stream(seed_, kDrop, image).uniform() < options_.drop_probability;
+}
+
+std::size_t Film::number(Stamp stamp) const {
+  return static_cast<std::size_t>(std::llround(to_seconds(stamp) * options_.rate_hz));
+}
+
 Viewpoint Film::viewpoint(Stamp when) const {
   const CameraPose pose = camera_.pose(drive_.at(std::clamp(when, drive_.stamp(0), drive_.end())));
   const double time_s = to_seconds(when);
@@ -92,6 +100,8 @@ Viewpoint Film::viewpoint(Stamp when) const {
 
 double Film::brightness(Stamp when) const {
   const double time_s = to_seconds(when);
+  const double covered_s = time_s - options_.covered_from_s;
+  if (covered_s >= 0.0 && covered_s < options_.covered_for_s) return 0.0;
   const double drift =
       options_.drift_ratio * std::sin(2.0 * kPi * time_s / options_.drift_period_s + drift_phase_rad_);
   const auto jumps = static_cast<std::uint64_t>(time_s / options_.jump_interval_s);

@@ -37,6 +37,9 @@ class Film {
   [[nodiscard]] std::size_t size() const;
   /// The middle of the exposure.
   [[nodiscard]] Stamp stamp(std::size_t image) const;
+  [[nodiscard]] std::size_t number(Stamp stamp) const;
+  /// Does it get lost on its way?
+  [[nodiscard]] bool is_lost(std::size_t image) const;
   /// Some 2 ms for 320 x 240 pixels.
   [[nodiscard]] GreyImage take(std::size_t image);
 

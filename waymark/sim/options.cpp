@@ -125,6 +125,10 @@ void describe(Schema& schema, FilmOptions& o) {
   schema.real("sim.brightness_drift_period_s", o.drift_period_s, {0.1, 1e6}, "period of that");
   schema.real("sim.brightness_jump_ratio", o.jump_ratio, {0.0, 1.0}, "sudden change of it, to either side");
   schema.real("sim.brightness_jump_interval_s", o.jump_interval_s, {0.1, 1e6}, "time between those");
+  schema.real("sim.lens_covered_from_s", o.covered_from_s, {0.0, 1e6},
+              "when something black covers the lens");
+  schema.real("sim.lens_covered_for_s", o.covered_for_s, {0.0, 1e6}, "... and how long");
+  schema.real("sim.image_drop_probability", o.drop_probability, kProbability, "chance that an image is lost");
   schema.real("sim.vibration_pitch_deg", o.vibration_pitch_deg, {0.0, 10.0},
               "standard deviation of the mount's nodding");
   schema.real("sim.vibration_roll_deg", o.vibration_roll_deg, {0.0, 10.0}, "... of its rolling");

@@ -95,6 +95,9 @@ struct FilmOptions {
   double drift_period_s = 20.0;
   double jump_ratio = 0.25;
   double jump_interval_s = 10.0;
+  double covered_from_s = 0.0;
+  double covered_for_s = 0.0;
+  double drop_probability = 0.0;
   double vibration_pitch_deg = 0.05;
   double vibration_roll_deg = 0.05;
   double vibration_height_m = 0.001;

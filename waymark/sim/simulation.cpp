@@ -136,7 +136,8 @@ void add_truth(std::vector<Event>& events, const Drive& drive, const TruthOption
 }
 
 void add_images(std::vector<Event>& events, const Film& film) {
-  for (std::size_t i = 0; i < film.size(); ++i) events.emplace_back(film.stamp(i), Image{});
+  for (std::size_t i = 0; i < film.size(); ++i)
+    if (!film.is_lost(i)) events.emplace_back(film.stamp(i), Image{});
 }
 
 Result<void> check_size(const Path& path, const SimOptions& options) {
@@ -177,7 +178,7 @@ Result<std::optional<Event>> Simulation::next() {
   auto event = EventList::next();
   if (event && *event)
     if (auto* image = std::get_if<Image>(&(**event).content))
-      image->pixels = std::make_shared<const GreyImage>(film_->take(images_taken_++));
+      image->pixels = std::make_shared<const GreyImage>(film_->take(film_->number((**event).stamp)));
   return event;
 }
 

@@ -35,7 +35,6 @@ class Simulation final : public EventList {
       : EventList(std::move(info), std::move(events)), film_(std::move(film)) {}
 
   std::unique_ptr<Film> film_;  ///< where there are images
-  std::size_t images_taken_ = 0;
 };
 
 }  // namespace waymark::sim
