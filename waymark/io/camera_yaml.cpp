@@ -19,7 +19,7 @@ constexpr std::string_view kMountKeys = "camera.mount_";
 /// The file while it is read; the first thing wrong is kept.
 class Reader {
  public:
-  Reader(YAML::Node root, const std::string& name) : root_(std::move(root)), name_(name) {}
+  Reader(const YAML::Node& root, const std::string& name) : root_(root), name_(name) {}
 
   [[nodiscard]] std::optional<Error> error() const { return error_; }
 

@@ -181,7 +181,8 @@ void develop_row(const Development& development, std::uint32_t row, const float*
   reference::draw_pixel_noise(development, row, width, noise);
   for (std::size_t i = 0; i < width; ++i) {
     float sum = weights[0] * light[i];
-    for (int k = 1; k <= kBlurRadiusMax; ++k) sum += weights[k] * (light[i - k] + light[i + k]);
+    const float* middle = light + i;
+    for (int k = 1; k <= kBlurRadiusMax; ++k) sum += weights[k] * (middle[-k] + middle[k]);
     out[i] =
         static_cast<std::uint8_t>(std::rint(std::clamp(development.gain * sum + noise[i], 0.0F, 255.0F)));
   }

@@ -36,7 +36,7 @@ void Canvas::add_grain(int grain_width, int grain_height, float amplitude, Rando
   const int columns = width() / grain_width;
   const int rows = height() / grain_height;
   std::vector<float> knots;
-  knots.reserve(static_cast<std::size_t>(columns * rows));
+  knots.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int i = 0; i < columns * rows; ++i)
     knots.push_back(amplitude * static_cast<float>(random.uniform(-1.0, 1.0)));
   std::vector<float> line(static_cast<std::size_t>(columns) + 1);

@@ -18,7 +18,9 @@ using kernels::TexturedRectangle;
 constexpr int kTileWidth = Renderer::kTileWidth;
 constexpr int kTileHeight = 16;
 constexpr std::size_t kTileRays = kTileWidth * kTileHeight;
-static_assert(kTileRays % kernels::kRayLanes == 0 && kernels::kNoisePixels % kTileWidth == 0);
+// Rows of pixels are padded to this.
+constexpr int kNoiseWidth = static_cast<int>(kernels::kNoisePixels);
+static_assert(kTileRays % kernels::kRayLanes == 0 && kNoiseWidth % kTileWidth == 0);
 constexpr std::size_t kRaysAtEdge = 16;
 // As wide apart, in parts of a pixel, as if they stood in rows.
 constexpr float kSpacingAtEdge = 0.25F;
@@ -139,7 +141,7 @@ struct Batch {
 Renderer::Renderer(const Camera& camera, ThreadTeam& team)
     : camera_(camera),
       team_(team),
-      columns_(tiles_over(camera.width_px(), kernels::kNoisePixels) * (kernels::kNoisePixels / kTileWidth)),
+      columns_(tiles_over(camera.width_px(), kNoiseWidth) * (kNoiseWidth / kTileWidth)),
       rows_(tiles_over(camera.height_px(), kTileHeight)),
       stride_(static_cast<std::size_t>(columns_) * kTileWidth),
       ray_x_(stride_ * static_cast<std::size_t>(rows_) * kTileHeight),
@@ -258,9 +260,9 @@ Renderer::EdgeRow Renderer::edges_of(const Tile& tile, int v) const {
   const std::int32_t* above = v > 0 ? here - stride_ : here;
   const std::int32_t* below = v + 1 < camera_.height_px() ? here + stride_ : here;
   EdgeRow edges{};
-  for (int u = 0; u < kTileWidth; ++u)
+  for (std::size_t u = 0; u < kTileWidth; ++u)
     edges[u] = static_cast<std::uint8_t>((here[u] != above[u]) | (here[u] != below[u]));
-  for (int u = 0; u + 1 < kTileWidth; ++u) {
+  for (std::size_t u = 0; u + 1 < kTileWidth; ++u) {
     const auto ends = static_cast<std::uint8_t>(here[u] != here[u + 1]);
     edges[u] |= ends;
     edges[u + 1] |= ends;

@@ -70,7 +70,7 @@ class Renderer {
   void add_pixel(Tile& tile, int u, int v);
   void find_visible(const std::vector<RipMap>& textures, const std::vector<Rectangle>& rectangles,
                     const Viewpoint& viewpoint);
-  void trace(std::size_t tile);
+  void trace(std::size_t index);
   void smooth_edges(const Tile& tile, std::size_t first_ray);
   void add_light(const Tile& tile, float weight);
   [[nodiscard]] EdgeRow edges_of(const Tile& tile, int v) const;

@@ -53,8 +53,10 @@ Level half_as_high(const Level& fine) {
 
 std::vector<std::uint8_t> rounded(const Level& level) {
   std::vector<std::uint8_t> bytes(level.grey.size());
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    bytes[i] = static_cast<std::uint8_t>(std::clamp(level.grey[i], 0.0F, 255.0F) + 0.5F);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const float raised = std::clamp(level.grey[i], 0.0F, 255.0F) + 0.5F;  // several times faster than rint
+    bytes[i] = static_cast<std::uint8_t>(raised);
+  }
   return bytes;
 }
 

@@ -69,8 +69,9 @@ void print_shapes(Canvas& canvas, const Area& poster, RandomStream& random) {
     if (random.uniform() < 0.6)
       canvas.fill(box, draw_ink(random));
     else
-      canvas.disc(static_cast<float>(box.left + size / 2), static_cast<float>(box.top + box.height / 2),
-                  static_cast<float>(box.height) / 2.0F, draw_ink(random));
+      canvas.disc(static_cast<float>(box.left) + 0.5F * static_cast<float>(size),
+                  static_cast<float>(box.top) + 0.5F * static_cast<float>(box.height),
+                  0.5F * static_cast<float>(box.height), draw_ink(random));
   }
 }
 
