@@ -18,6 +18,8 @@ waymark_dependency(yaml-cpp CONFIG)
 waymark_dependency(nlohmann_json CONFIG)
 waymark_dependency(hwy CONFIG)
 waymark_dependency(ZLIB)
+waymark_dependency(PNG)
+waymark_dependency(JPEG)
 # Debian's libmatio-dev has neither a CMake package nor a .pc that works without HDF5's own; it is linked by its name.
 find_library(WAYMARK_MATIO matio REQUIRED)
 mark_as_advanced(WAYMARK_MATIO)

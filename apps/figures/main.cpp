@@ -17,6 +17,7 @@
 
 #include "figures/compressed.hpp"
 #include "figures/consistency.hpp"
+#include "figures/contact_sheet.hpp"
 #include "figures/forest.hpp"
 #include "figures/observe.hpp"
 
@@ -250,6 +251,7 @@ int main(int argc, char** argv) {
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
   waymark::add_consistency(app, status);
+  waymark::add_contact_sheet(app, status);
   waymark::add_forest(app);
   waymark::add_observe(app);
   CLI11_PARSE(app, argc, argv);

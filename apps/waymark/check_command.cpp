@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/eval/truth_check.hpp"
+#include "waymark/io/image_loader.hpp"
 #include "waymark/report/results.hpp"
 
 #include "commands.hpp"
@@ -46,6 +47,8 @@ struct Contents {
   std::map<std::string, Stream> streams;  ///< by name
   std::map<LandmarkId, std::int64_t> sightings;
   std::int64_t unidentified = 0;
+  std::optional<ImageSize> image_size;  ///< of the last image
+  std::int64_t blank_images = 0;
   std::set<std::string> measured;  ///< "range and bearing", ...
   std::vector<eval::Sighting> placed;
   std::vector<eval::TruthSample> truth;
@@ -79,6 +82,16 @@ void look_at(const Observations& observations, Stamp stamp, const Pose2& T_robot
   }
 }
 
+/// Nothing can be found in an image all of whose pixels are alike: a covered lens, a picture all black or
+/// white.
+void look_at(const GreyImage& image, Contents& contents) {
+  constexpr int kLeastContrast = 24;
+  contents.image_size = {image.width_px(), image.height_px()};
+  const auto count = static_cast<std::size_t>(image.width_px()) * static_cast<std::size_t>(image.height_px());
+  const auto [darkest, lightest] = std::minmax_element(image.data(), image.data() + count);
+  if (*lightest - *darkest < kLeastContrast) ++contents.blank_images;
+}
+
 Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
   Contents contents;
   while (true) {
@@ -92,6 +105,7 @@ Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
     contents.streams[name_of(content)].see(stamp);
     if (const auto* observations = std::get_if<Observations>(&content))
       look_at(*observations, stamp, T_robot_sensor, contents);
+    if (const auto* image = std::get_if<Image>(&content)) look_at(*image->pixels, contents);
     if (const auto* truth = std::get_if<Truth>(&content)) contents.truth.push_back({stamp, *truth});
   }
   contents.notes = source.notes();
@@ -121,6 +135,8 @@ std::vector<std::string> find_oddities(const Request& request, const LogInfo& lo
       oddities.push_back(fmt::format("{}: longest gap {:.2f} s", name, to_seconds(stream.longest_gap)));
   if (contents.unidentified > 0)
     oddities.push_back(fmt::format("{} observations without identity", contents.unidentified));
+  if (contents.blank_images > 0)
+    oddities.push_back(fmt::format("{} images show nothing: all of it is alike", contents.blank_images));
   std::ranges::move(survey_oddities(request, log, contents), std::back_inserter(oddities));
   return oddities;
 }
@@ -144,6 +160,8 @@ void print_text(const LogInfo& log, const Contents& contents, const std::vector<
     fmt::print("  {:<16}{:>8} events  {:>8.1f} s  {:>7.1f} Hz  longest gap {:.2f} s\n", name, stream.events,
                stream.duration_s(), stream.rate_hz(), to_seconds(stream.longest_gap));
   for (const auto& kind : contents.measured) fmt::print("  observed: {}\n", kind);
+  if (const auto& size = contents.image_size)
+    fmt::print("  image size: {} x {} pixels\n", size->width_px, size->height_px);
   if (!contents.sightings.empty()) {
     fmt::print("  identities: {}:", contents.sightings.size());
     for (const auto& [id, count] : contents.sightings) fmt::print(" {} ({}x)", to_string(id), count);
@@ -165,6 +183,7 @@ void print_json(const LogInfo& log, const Contents& contents, const std::vector<
                                {"rate_hz", stream.rate_hz()},
                                {"longest_gap_s", to_seconds(stream.longest_gap)}});
   json["observed"] = contents.measured;
+  if (const auto& size = contents.image_size) json["image_size"] = {size->width_px, size->height_px};
   json["identities"] = nlohmann::ordered_json::object();
   for (const auto& [id, count] : contents.sightings) json["identities"][to_string(id)] = count;
   json["surveyed_landmarks"] = log.landmarks.size();
@@ -178,8 +197,9 @@ void print_json(const LogInfo& log, const Contents& contents, const std::vector<
 Result<void> check_log(const Request& request) {
   auto opened = open_input(request.input, request.flags.settings());
   if (!opened) return opened.error();
-  const Contents contents = read_contents(*opened->source, opened->config.sensor.T_robot_sensor());
-  const LogInfo& log = opened->source->info();
+  ImageLoader source(std::move(opened->source));
+  const Contents contents = read_contents(source, opened->config.sensor.T_robot_sensor());
+  const LogInfo& log = source.info();
   const auto oddities = find_oddities(request, log, contents);
   const std::string next = advice(request, contents);
   (request.verbosity.json ? print_json : print_text)(log, contents, oddities, next);

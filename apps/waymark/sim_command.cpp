@@ -27,7 +27,11 @@ std::string scenario_list() {
 Result<void> simulate(const Request& request) {
   auto simulation = open_simulation(request.scenario, request.flags.settings());
   if (!simulation) return simulation.error();
-  if (auto written = write_log(**simulation, request.output); !written) return written;
+  {
+    ProgressBar bar("simulating", request.verbosity);
+    const auto show = [&bar](double fraction) { bar.show(fraction); };
+    if (auto written = write_log(**simulation, request.output, show); !written) return written;
+  }
   if (request.verbosity.talks()) fmt::print("wrote {0}\nnext: waymark run {0} -o out\n", request.output);
   return {};
 }
@@ -43,6 +47,7 @@ void add_sim(CLI::App& app, Work& work) {
   command->add_flag("--quiet", request->verbosity.quiet, "print nothing but errors");
   command->footer(
       "Example:\n  waymark sim study -o study-log --seed 7\n"
+      "  waymark sim room -o room-log --set sim.laps=2 --set sim.walkers=3\n"
       "  waymark sim square -o log --set sim.landmarks=40 --set sim.field_of_view_deg=180");
   command->callback([&work, request] { work = [request] { return simulate(*request); }; });
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "support/data_dir.hpp"
+#include "waymark/io/camera_yaml.hpp"
+#include "waymark/io/image_file.hpp"
 
 #include "io_support.hpp"
 
@@ -120,17 +122,76 @@ TEST(LogFolder, AtEqualStampsOdometryComesBeforeTruthBeforeObservations) {
   EXPECT_TRUE(std::holds_alternative<Observations>(events[2].content));
 }
 
-TEST(LogFolder, ImagesAreNamedByTheirPath) {
+TEST(LogFolder, ImagesAreNamedByTheirPathAndNotRead) {
   const TempFolder folder;
   folder.write("log.yaml", kVersionLine);
-  folder.write("images.csv", "stamp_s,file\n1,a.png\n2,none.png\n");
+  folder.write("images.csv", "stamp_s,file\n1,a.png\n");
   const auto image = folder.write("images/a.png", "x");
   const auto log = open_log_folder(folder.path());
   ASSERT_TRUE(log.ok());
+  const auto images = test::only<Image>(test::read_all(**log).events);
+  ASSERT_EQ(images.size(), 1U);
+  EXPECT_EQ(images[0].second.file, image.string());
+  EXPECT_EQ(images[0].second.pixels, nullptr);
+}
+
+TEST(LogFolder, LostAndRepeatedImagesAreSkippedAndCounted) {
+  const TempFolder folder;
+  folder.write("log.yaml", kVersionLine);
+  folder.write("images.csv", "stamp_s,file\n1,a.png\n1,a.png\n2,none.png\n3,a.png\n4,none.png\n");
+  folder.write("images/a.png", "x");
+  const auto log = open_log_folder(folder.path());
+  ASSERT_TRUE(log.ok());
   const auto delivered = test::read_all(**log);
-  ASSERT_EQ(delivered.events.size(), 1U);
-  EXPECT_EQ(std::get<Image>(delivered.events[0].content).file, image.string());
-  EXPECT_THAT(delivered.error, HasSubstr("images.csv:3: no such image"));
+  EXPECT_EQ(delivered.error, "");
+  EXPECT_EQ(delivered.events.size(), 2U);
+  EXPECT_THAT((*log)->notes(), testing::UnorderedElementsAre(
+                                   "images skipped that repeat the stamp before them: 1",
+                                   "images skipped that are named in images.csv and missing in images/: 2"));
+}
+
+TEST(LogFolder, AnImageWithoutAFileIsAnError) {
+  const TempFolder folder;
+  folder.write("log.yaml", kVersionLine);
+  folder.write("images.csv", "stamp_s,file\n1,\n");
+  const auto log = open_log_folder(folder.path());
+  ASSERT_TRUE(log.ok());
+  EXPECT_THAT(test::read_all(**log).error, HasSubstr("images.csv:2: column file is empty"));
+}
+
+std::string value_of(const LogInfo& info, std::string_view key) {
+  std::string last;
+  for (const auto& [name, value] : info.settings)
+    if (name == key) last = value;
+  return last;
+}
+
+TEST(LogFolder, CameraComesFromCameraYamlAndItsMountFromLogYaml) {
+  const TempFolder folder;
+  folder.write("log.yaml", std::string(kVersionLine) + "camera_mount: {x_m: 0.1, z_m: 0.4, pitch_deg: 5}\n");
+  folder.write("camera.yaml", to_camera_yaml({.width_px = 640, .height_px = 480, .fu_px = 500.25}, "front"));
+  const auto log = open_log_folder(folder.path());
+  ASSERT_TRUE(log.ok());
+  const LogInfo& info = (*log)->info();
+  EXPECT_EQ(value_of(info, "camera.width_px"), "640");
+  EXPECT_EQ(value_of(info, "camera.fu_px"), "500.25");
+  EXPECT_EQ(value_of(info, "camera.mount_z_m"), "0.4");
+  EXPECT_EQ(value_of(info, "camera.mount_pitch_deg"), "5");
+  EXPECT_EQ(value_of(info, "camera.mount_roll_deg"), "");
+}
+
+TEST(LogFolder, RefusesACameraThatContradictsTheImages) {
+  const TempFolder folder;
+  folder.write("log.yaml", kVersionLine);
+  folder.write("images.csv", "stamp_s,file\n1,none.png\n2,a.png\n");
+  folder.write("camera.yaml", to_camera_yaml({.width_px = 640, .height_px = 480}, "front"));
+  folder.write("images/none.txt", "");
+  ASSERT_TRUE(write_png(folder.path() / "images/a.png", GreyImage(320, 240)).ok());
+  const auto log = open_log_folder(folder.path());
+  ASSERT_FALSE(log.ok());
+  EXPECT_THAT(log.error().message,
+              testing::AllOf(HasSubstr("camera.yaml: image_width and image_height are 640 and 480"),
+                             HasSubstr("a.png has 320 x 240 pixels")));
 }
 
 TEST(LogFolder, InfoComesFromLogYamlAndLandmarks) {
@@ -151,8 +212,8 @@ TEST(LogFolder, InfoComesFromLogYamlAndLandmarks) {
   EXPECT_EQ(info.format, "log folder");
   const std::vector<std::pair<std::string, std::string>> settings{
       {"wheels.left_radius_m", "0.1"}, {"wheels.track_m", "0.3"},       {"sensor.x_m", "0.05"},
-      {"sensor.yaw_deg", "90"},        {"sensor.range_sigma_m", "0.2"}, {"sensor.range_sigma_m", "0.4"},
-      {"motion.turn_scale", "1.1"}};
+      {"sensor.yaw_deg", "90"},        {"sensor.range_sigma_m", "0.2"}, {"camera.mount_z_m", "0.3"},
+      {"camera.mount_pitch_deg", "5"}, {"sensor.range_sigma_m", "0.4"}, {"motion.turn_scale", "1.1"}};
   EXPECT_EQ(info.settings, settings);
   EXPECT_EQ(info.truth_sensor_m, Eigen::Vector2d(-3.9, 0.6));
   ASSERT_EQ(info.landmarks.size(), 2U);

@@ -6,7 +6,9 @@
 
 #include "support/data_dir.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/io/image_loader.hpp"
 #include "waymark/io/log_folder.hpp"
+#include "waymark/sim/simulation.hpp"
 
 #include "io_support.hpp"
 
@@ -25,7 +27,10 @@ static bool operator==(const Steering& a, const Steering& b) {
 static bool operator==(const OdometryPose& a, const OdometryPose& b) {
   return a.T_odom_robot == b.T_odom_robot;
 }
-static bool operator==(const Image& a, const Image& b) { return a.file == b.file; }
+static bool operator==(const Image& a, const Image& b) {
+  const bool same_pixels = a.pixels == b.pixels || (a.pixels && b.pixels && *a.pixels == *b.pixels);
+  return same_pixels && (a.file == b.file || a.pixels);
+}
 static bool operator==(const Truth& a, const Truth& b) {
   return a.x_m == b.x_m && a.y_m == b.y_m && a.theta_rad == b.theta_rad;
 }
@@ -162,7 +167,7 @@ TEST(LogWriter, NamesImagesByTheirPlace) {
   const TempFolder elsewhere;
   const std::string inside = folder.write("images/a.png", "x").string();
   const std::string outside = elsewhere.write("b.png", "x").string();
-  ListSource source({}, {{Stamp{}, Image{inside}}, {Stamp{}, Image{outside}}});
+  ListSource source({}, {{Stamp{}, Image{inside}}, {Stamp{Duration{1}}, Image{outside}}});
   ASSERT_TRUE(write_log(source, folder.path()).ok());
   EXPECT_THAT(read_file(folder.path() / "images.csv").value(), HasSubstr(",a.png\n"));
   const auto log = open_log_folder(folder.path());
@@ -171,6 +176,40 @@ TEST(LogWriter, NamesImagesByTheirPlace) {
   ASSERT_EQ(images.size(), 2U);
   EXPECT_EQ(images[0].second.file, inside);
   EXPECT_EQ(images[1].second.file, outside);
+}
+
+/// A drive of two seconds through a rendered room.
+Result<std::unique_ptr<sim::Simulation>> rendered_room() {
+  sim::SimOptions options = *sim::scenario("room");
+  options.path.side_m = 0.5;
+  options.path.corner_radius_m = 0.0;
+  options.path.speed_mps = 5.0;
+  options.path.turn_rate_max_degps = 500.0;
+  options.room.blocks = 2;
+  options.film.mount.pitch_deg = 2.5;
+  return sim::Simulation::make("room", options, 4);
+}
+
+using StringMap = std::map<std::string, std::string>;
+
+StringMap map_of(const LogInfo& info) { return {info.settings.begin(), info.settings.end()}; }
+
+TEST(LogWriter, CopyOfARenderedRoomIsTheSameLogImagesIncluded) {
+  const TempFolder folder;
+  double last_progress = 0.0;
+  ASSERT_TRUE(write_log(**rendered_room(), folder.path(), [&](double part) { last_progress = part; }).ok());
+  EXPECT_EQ(last_progress, 1.0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "camera.yaml"));
+  auto log = open_log_folder(folder.path());
+  ASSERT_TRUE(log.ok()) << log.error().message;
+  ImageLoader copy(*std::move(log));
+  const auto simulation = rendered_room();
+  EXPECT_EQ(map_of(copy.info()), map_of((*simulation)->info()));
+  const auto made = test::read_all(**simulation).events;
+  const auto copied = test::read_all(copy).events;
+  ASSERT_EQ(copied.size(), made.size());
+  EXPECT_GT(test::only<Image>(made).size(), 20U);
+  EXPECT_TRUE(std::ranges::equal(copied, made, [](const Event& a, const Event& b) { return a == b; }));
 }
 
 TEST(LogWriter, RefusesToMixWithAnotherLogButReplacesItsOwn) {

@@ -63,7 +63,7 @@ TEST_P(EveryShape, DistanceIsThatToTheNearestPoint) {
 
 INSTANTIATE_TEST_SUITE_P(All, EveryShape,
                          testing::Combine(testing::Values(Shape::kSquare, Shape::kLShape, Shape::kFigureEight,
-                                                          Shape::kRandom),
+                                                          Shape::kRandom, Shape::kLoop),
                                           testing::Values(0.0, 0.5)));
 
 TEST(Path, LengthsAreThoseOfTheShapes) {

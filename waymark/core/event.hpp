@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 
+#include "waymark/core/grey_image.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/core/pose2.hpp"
 #include "waymark/core/stamp.hpp"
@@ -33,9 +35,11 @@ struct OdometryPose {
   Pose2 T_odom_robot;
 };
 
-/// A picture, named by its file; who needs the pixels loads them.
+/// A picture: named by its file, to be loaded by who needs the pixels, or with its pixels where a simulator
+/// or a camera has them in memory.
 struct Image {
   std::string file;
+  std::shared_ptr<const GreyImage> pixels = nullptr;
 };
 
 /// Where the truth sensor really was. The heading may be unknown.

@@ -16,7 +16,8 @@ enum class StreamPurpose : std::uint32_t {
   kResampling = 2,
   kSimulation = 3,
   kWorld = 4,
-  kInitialisation = 5
+  kInitialisation = 5,
+  kImages = 6
 };
 
 /// One stream of random numbers per (seed, purpose, step, particle). The same four give the same numbers on

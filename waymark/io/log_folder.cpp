@@ -12,7 +12,9 @@
 
 #include "waymark/core/config.hpp"
 #include "waymark/core/flat_yaml.hpp"
+#include "waymark/io/camera_yaml.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/image_file.hpp"
 #include "waymark/io/log_format.hpp"
 #include "waymark/io/merged_log.hpp"
 
@@ -77,10 +79,23 @@ std::optional<EventContent> read_observation(TextTable& row, Tally&) {
   return Observations{observation};
 }
 
+fs::path image_path(const fs::path& folder, const TextTable& row) {
+  return folder / log_format::kImageFolder / row.text(1);
+}
+
+/// A lost picture costs its frame and not the log; a repeated one must not count twice.
 EventStream::ReadRow read_image_below(const fs::path& folder) {
-  return [folder](TextTable& row, Tally&) -> std::optional<EventContent> {
-    const fs::path file = folder / log_format::kImageFolder / row.text(1);
-    if (row.is_empty(1) || !fs::is_regular_file(file)) row.fail("no such image: " + file.string());
+  return [folder, last = std::optional<Stamp>()](TextTable& row,
+                                                 Tally& tally) mutable -> std::optional<EventContent> {
+    if (row.is_empty(1)) row.fail("column file is empty; it needs the name of an image");
+    const Stamp stamp = row.stamp(0);
+    const bool repeats = stamp == last;
+    last = stamp;
+    const fs::path file = image_path(folder, row);
+    const bool exists = fs::is_regular_file(file);
+    if (repeats) tally.count("images skipped that repeat the stamp before them");
+    if (!exists) tally.count("images skipped that are named in images.csv and missing in images/");
+    if (repeats || !exists) return std::nullopt;
     return Image{file.string()};
   };
 }
@@ -133,12 +148,6 @@ std::map<std::string, Meaning, std::less<>> meanings_of_keys(LogInfo& info) {
     meanings.emplace(log_key, add_setting(info, config_key));
   meanings["truth_sensor.x_m"] = set_truth_sensor(info, 0);
   meanings["truth_sensor.y_m"] = set_truth_sensor(info, 1);
-  // Where the camera sits is for whoever looks at the images; here it only has to be a number.
-  for (const char* part : {"x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"})
-    meanings[std::string("camera_mount.") + part] = [](const std::string& value) -> Result<void> {
-      if (auto number = read_yaml_number(value); !number) return number.error();
-      return {};
-    };
   return meanings;
 }
 
@@ -213,6 +222,37 @@ bool has_identities(const fs::path& file) {
   return !any;
 }
 
+/// The first picture of the log that there is.
+std::optional<fs::path> first_image(const fs::path& folder) {
+  auto table = TextTable::open(folder / log_format::kImages.file, layout_of(log_format::kImages));
+  while (table && table->next())
+    if (!table->is_empty(1) && fs::is_regular_file(image_path(folder, *table)))
+      return image_path(folder, *table);
+  return std::nullopt;
+}
+
+/// A camera that was calibrated with images of another size sees nothing where it should.
+Result<void> check_image_size(const fs::path& folder, const fs::path& camera_file,
+                              const CameraOptions& camera) {
+  const auto file = first_image(folder);
+  if (!file) return {};
+  const auto image = read_image(*file);
+  if (!image || (image->width_px() == camera.width_px && image->height_px() == camera.height_px)) return {};
+  return Error{fmt::format("{}: image_width and image_height are {} and {}, but {} has {} x {} pixels",
+                           camera_file.string(), camera.width_px, camera.height_px, file->string(),
+                           image->width_px(), image->height_px())};
+}
+
+Result<void> read_camera(const fs::path& folder, LogInfo& info) {
+  const fs::path file = folder / log_format::kCameraFile;
+  if (!fs::exists(file)) return {};
+  const auto camera = read_camera_yaml(file);
+  if (!camera) return camera.error();
+  if (auto fits = check_image_size(folder, file, *camera); !fits) return fits;
+  std::ranges::move(lens_settings(*camera), std::back_inserter(info.settings));
+  return {};
+}
+
 Result<void> open_stream(const fs::path& folder, const log_format::Table& format,
                          EventStream::ReadRow read_row, std::vector<EventStream>& streams) {
   const fs::path file = folder / format.file;
@@ -251,6 +291,7 @@ Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
                .landmarks = {},
                .identities = has_identities(folder / log_format::kObservations.file),
                .truth_sensor_m = {}};
+  if (auto done = read_camera(folder, info); !done) return done.error();
   if (auto done = read_info(folder, info); !done) return done.error();
   if (auto done = read_landmarks(folder / log_format::kLandmarks.file, info); !done) return done.error();
   if (auto done = check_one_odometry(folder); !done) return done.error();

@@ -29,6 +29,7 @@ inline constexpr std::array kTables{kWheels, kVelocity,     kSteering, kOdometry
                                     kTruth,  kObservations, kImages,   kLandmarks};
 
 inline constexpr std::string_view kInfoFile = "log.yaml";
+inline constexpr std::string_view kCameraFile = "camera.yaml";
 inline constexpr std::string_view kImageFolder = "images";
 inline constexpr std::string_view kVersionKey = "waymark_log";
 inline constexpr std::string_view kVersion = "1";
@@ -48,6 +49,12 @@ inline constexpr std::array kSettings{
     Setting{"landmark_sensor.x_m", "sensor.x_m"},
     Setting{"landmark_sensor.y_m", "sensor.y_m"},
     Setting{"landmark_sensor.yaw_deg", "sensor.yaw_deg"},
+    Setting{"camera_mount.x_m", "camera.mount_x_m"},
+    Setting{"camera_mount.y_m", "camera.mount_y_m"},
+    Setting{"camera_mount.z_m", "camera.mount_z_m"},
+    Setting{"camera_mount.roll_deg", "camera.mount_roll_deg"},
+    Setting{"camera_mount.pitch_deg", "camera.mount_pitch_deg"},
+    Setting{"camera_mount.yaw_deg", "camera.mount_yaw_deg"},
     Setting{"noise.range_sigma_m", "sensor.range_sigma_m"},
     Setting{"noise.bearing_sigma_deg", "sensor.bearing_sigma_deg"},
 };

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "waymark/io/camera_yaml.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/image_file.hpp"
 #include "waymark/io/log_format.hpp"
 #include "waymark/io/number_text.hpp"
 
@@ -158,17 +160,34 @@ class LogText {
     return {};
   }
 
-  /// An image that lies elsewhere is named by its full path.
   Result<void> add_content(Stamp stamp, const Image& image) {
+    if (image.file.empty() && image.pixels != nullptr) return add_pixels(stamp, *image.pixels);
+    return add_image_file(stamp, image);
+  }
+
+  Result<void> add_pixels(Stamp stamp, const GreyImage& pixels) {
+    const std::string name = fmt::format("{:06}.png", images_written_++);
+    if (auto made = ensure_output_folder(images_); !made) return made;
+    if (auto written = write_png(images_ / name, pixels); !written) return written;
+    add_image_row(stamp, name);
+    return {};
+  }
+
+  /// An image that lies elsewhere is named by its full path.
+  Result<void> add_image_file(Stamp stamp, const Image& image) {
     if (image.file.find_first_of(",\n") != std::string::npos)
       return Error{image.file + ": the name of an image in a log cannot hold a comma"};
-    std::string& text = file(log_format::kImages);
-    append_stamp(text, stamp);
     const fs::path full = fs::absolute(image.file).lexically_normal();
     const fs::path relative = full.lexically_relative(images_);
     const bool is_inside = !relative.empty() && *relative.begin() != "..";
-    text += ',' + (is_inside ? relative : full).string() + '\n';
+    add_image_row(stamp, (is_inside ? relative : full).string());
     return {};
+  }
+
+  void add_image_row(Stamp stamp, const std::string& name) {
+    std::string& text = file(log_format::kImages);
+    append_stamp(text, stamp);
+    text += ',' + name + '\n';
   }
 
   Result<void> add_content(Stamp stamp, const Observations& observations) {
@@ -176,6 +195,7 @@ class LogText {
   }
 
   fs::path images_;
+  int images_written_ = 0;
   Files files_;
   ObservationRows observations_;
 };
@@ -189,9 +209,8 @@ std::map<std::string, std::string> settings_in_force(const LogInfo& info) {
 
 using Sections = std::map<std::string, std::map<std::string, std::string>>;
 
-Sections sections_of(const LogInfo& info) {
+Sections sections_of(std::map<std::string, std::string> settings) {
   Sections sections;
-  auto settings = settings_in_force(info);
   for (const auto& [log_key, config_key] : log_format::kSettings) {
     const auto setting = settings.find(std::string(config_key));
     if (setting == settings.end()) continue;
@@ -203,8 +222,7 @@ Sections sections_of(const LogInfo& info) {
   return sections;
 }
 
-std::string info_yaml(const LogInfo& info) {
-  Sections sections = sections_of(info);
+std::string info_yaml(const LogInfo& info, Sections sections) {
   if (info.truth_sensor_m)
     for (const auto& [axis, key] : {std::pair{0, "x_m"}, {1, "y_m"}})
       append_shortest(sections["truth_sensor"][key], (*info.truth_sensor_m)[axis]);
@@ -216,16 +234,26 @@ std::string info_yaml(const LogInfo& info) {
   return std::string(yaml.c_str()) + '\n';
 }
 
+/// What is known of the camera goes into camera.yaml, the rest into log.yaml.
+void add_info(const LogInfo& info, Files& files) {
+  auto settings = settings_in_force(info);
+  if (const auto camera = take_lens(settings))
+    files[std::string(log_format::kCameraFile)] = to_camera_yaml(*camera, "camera");
+  files[std::string(log_format::kInfoFile)] = info_yaml(info, sections_of(std::move(settings)));
+}
+
 /// A file that a log may have but this one has not would be read as a part of it.
 Result<void> check_no_other_log(const Files& files, const fs::path& folder) {
-  for (const auto& table : log_format::kTables)
-    if (!files.contains(table.file) && fs::exists(folder / table.file))
+  std::vector<std::string_view> names{log_format::kCameraFile};
+  for (const auto& table : log_format::kTables) names.push_back(table.file);
+  for (const std::string_view name : names)
+    if (!files.contains(name) && fs::exists(folder / name))
       return Error{fmt::format("{} is of another log; remove it or write into another folder",
-                               (folder / table.file).string())};
+                               (folder / name).string())};
   return {};
 }
 
-Result<Files> read_all(Source& source, const fs::path& folder) {
+Result<Files> read_all(Source& source, const fs::path& folder, const std::function<void(double)>& progress) {
   LogText text(folder);
   text.add_landmarks(source.info().landmarks);
   while (true) {
@@ -233,16 +261,17 @@ Result<Files> read_all(Source& source, const fs::path& folder) {
     if (!event) return event.error();
     if (!*event) break;
     if (auto done = text.add(**event); !done) return done.error();
+    if (progress) progress(source.progress());
   }
   Files files = std::move(text).finish();
-  files[std::string(log_format::kInfoFile)] = info_yaml(source.info());
+  add_info(source.info(), files);
   return files;
 }
 
 }  // namespace
 
-Result<void> write_log(Source& source, const fs::path& folder) {
-  const auto files = read_all(source, folder);
+Result<void> write_log(Source& source, const fs::path& folder, const std::function<void(double)>& progress) {
+  const auto files = read_all(source, folder, progress);
   if (!files) return files.error();
   if (auto done = ensure_output_folder(folder); !done) return done;
   if (auto done = check_no_other_log(*files, folder); !done) return done;

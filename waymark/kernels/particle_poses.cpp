@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "waymark/kernels/particle_formulas-inl.h"
+#include "waymark/kernels/philox-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace waymark::kernels::HWY_NAMESPACE {
@@ -53,51 +54,6 @@ void place_sensor_lanes(const PoseColumns& robots, const SensorMount& mount, con
   }
 }
 
-// Philox4x32: the high and low words of products of all lanes, from those of the even and the odd ones.
-using WordTag = hn::ScalableTag<std::uint32_t>;
-using Words = hn::Vec<WordTag>;
-
-struct Product {
-  Words high, low;
-};
-
-#if HWY_TARGET == HWY_SCALAR
-HWY_INLINE Product multiply_wide(Words a, std::uint32_t b) {
-  const std::uint64_t p = std::uint64_t{hn::GetLane(a)} * b;
-  return {hn::Set(WordTag(), static_cast<std::uint32_t>(p >> 32)),
-          hn::Set(WordTag(), static_cast<std::uint32_t>(p))};
-}
-#else
-HWY_INLINE Product multiply_wide(Words a, std::uint32_t b) {
-  const WordTag words;
-  const hn::Repartition<std::uint64_t, WordTag> wide;
-  const auto factor = hn::Set(words, b);
-  const auto even = hn::MulEven(a, factor);
-  const auto odd = hn::MulEven(hn::BitCast(words, hn::ShiftRight<32>(hn::BitCast(wide, a))), factor);
-  return {hn::OddEven(hn::BitCast(words, odd), hn::BitCast(words, hn::ShiftRight<32>(even))),
-          hn::OddEven(hn::BitCast(words, hn::ShiftLeft<32>(odd)), hn::BitCast(words, even))};
-}
-#endif
-
-struct Counter {
-  Words w0, w1, w2, w3;
-};
-
-HWY_INLINE Counter philox(Counter c, std::uint64_t seed) {
-  const WordTag words;
-  auto key0 = static_cast<std::uint32_t>(seed);
-  auto key1 = static_cast<std::uint32_t>(seed >> 32);
-  for (int round = 0; round < 10; ++round) {
-    const Product p0 = multiply_wide(c.w0, 0xD2511F53U);
-    const Product p1 = multiply_wide(c.w2, 0xCD9E8D57U);
-    c = {hn::Xor(hn::Xor(p1.high, c.w1), hn::Set(words, key0)), p1.low,
-         hn::Xor(hn::Xor(p0.high, c.w3), hn::Set(words, key1)), p0.low};
-    key0 += 0x9E3779B9U;
-    key1 += 0xBB67AE85U;
-  }
-  return c;
-}
-
 // sqrt(-2 log u) with u in (0, 1) of 31 bits.
 HWY_INLINE Lanes radius_from(Words w) {
   const Lanes bits = hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), hn::ShiftRight<1>(w)));
@@ -116,7 +72,7 @@ void normals_lanes(const DrawKey& key, float* n0, float* n1, float* n2, std::siz
   const auto low = hn::Set(words, static_cast<std::uint32_t>(key.step));
   for (std::size_t i = 0; i < count; i += lane_count()) {
     const auto particle = hn::Iota(words, key.first + static_cast<std::uint32_t>(i));
-    const Counter random = philox({hn::Zero(words), high, low, particle}, key.seed);
+    const PhiloxWords random = philox({hn::Zero(words), high, low, particle}, key.seed);
     const Lanes near = radius_from(random.w0);
     const SinCos<Lanes> direction = direction_from(random.w1);
     store(near * direction.cos, n0, i);

@@ -1,6 +1,7 @@
 #include "waymark/sim/options.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,9 +16,10 @@ constexpr Limits kProbability{0.0, 1.0};
 constexpr Limits kVariance{0.0, 1.0};
 
 void describe(Schema& schema, PathOptions& o) {
-  schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random"},
+  schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random", "loop"},
                 "closed path of one lap");
-  schema.real("sim.side_m", o.side_m, {0.5, 1000.0}, "side of the square that the path fits into");
+  schema.real("sim.side_m", o.side_m, {0.5, 1000.0},
+              "side of the square that the path fits into; a loop is a third as wide as long");
   schema.integer("sim.laps", o.laps, {1, 1000}, "times round the path");
   schema.integer("sim.waypoints", o.waypoints, {3, 1000}, "corners of a random path");
   schema.real("sim.corner_radius_m", o.corner_radius_m, {0.0, 100.0},
@@ -82,6 +84,60 @@ void describe(Schema& schema, SensorOptions& o) {
   schema.real("sim.misread_probability", o.misread_probability, kProbability,
               "chance that a sighting bears the identity of another landmark");
   schema.boolean("sim.identities", o.identities, "sightings say which landmark they are of");
+}
+
+void describe(Schema& schema, RoomOptions& o) {
+  schema.choice("sim.scene", o.scene, {"none", "room", "corridor"}, "what a camera sees; none: no images");
+  schema.real("sim.margin_m", o.margin_m, {0.8, 20.0}, "from the path to the walls");
+  schema.real("sim.room_height_m", o.height_m, {1.0, 10.0}, "from floor to ceiling");
+  schema.integer("sim.blocks", o.blocks, {0, 500}, "pieces of furniture, as far as there is room");
+  schema.integer("sim.walkers", o.walkers, {0, 50}, "people who walk about");
+  schema.real("sim.walker_speed_mps", o.walker_speed_mps, {0.0, 10.0}, "how fast they walk");
+}
+
+void describe(Schema& schema, Distortion& o) {
+  schema.real("sim.camera_k1", o.k1, {-10.0, 10.0}, "radial distortion, plumb bob as in ROS");
+  schema.real("sim.camera_k2", o.k2, {-10.0, 10.0}, "radial distortion, fourth order");
+  schema.real("sim.camera_p1", o.p1, {-1.0, 1.0}, "tangential distortion");
+  schema.real("sim.camera_p2", o.p2, {-1.0, 1.0}, "tangential distortion");
+  schema.real("sim.camera_k3", o.k3, {-10.0, 10.0}, "radial distortion, sixth order");
+}
+
+void describe(Schema& schema, CameraMount& o) {
+  schema.real("sim.camera_x_m", o.x_m, {-10.0, 10.0}, "camera ahead of the robot's origin");
+  schema.real("sim.camera_y_m", o.y_m, {-10.0, 10.0}, "camera left of it");
+  schema.real("sim.camera_z_m", o.z_m, {0.01, 10.0}, "camera above the ground");
+  schema.real("sim.camera_roll_deg", o.roll_deg, {-180.0, 180.0},
+              "turn of the camera about the robot's x axis");
+  schema.real("sim.camera_pitch_deg", o.pitch_deg, {-90.0, 90.0},
+              "... about its y axis, positive looks down");
+  schema.real("sim.camera_yaw_deg", o.yaw_deg, {-180.0, 180.0}, "... about its z axis, positive looks left");
+}
+
+void describe(Schema& schema, FilmOptions& o) {
+  schema.integer("sim.image_width_px", o.width_px, {16, 4096}, "width of the images");
+  schema.integer("sim.image_height_px", o.height_px, {16, 4096}, "height of the images");
+  schema.real("sim.image_rate_hz", o.rate_hz, {0.1, 1000.0}, "images per second");
+  schema.real("sim.camera_field_of_view_deg", o.field_of_view_deg, {5.0, 150.0},
+              "horizontal, without the distortion");
+  describe(schema, o.distortion);
+  describe(schema, o.mount);
+  schema.real("sim.lens_blur_px", o.lens_blur_px, {0.0, 1.0}, "standard deviation of the blur of the lens");
+  schema.real("sim.exposure_ms", o.exposure_ms, {0.0, 100.0}, "open shutter: what moves is smeared");
+  schema.real("sim.noise_grey", o.noise_grey, {0.0, 100.0}, "pixel noise, of 255");
+  schema.real("sim.brightness", o.brightness, {0.0, 100.0}, "factor on the grey of all images");
+  schema.real("sim.brightness_drift_ratio", o.drift_ratio, {0.0, 1.0}, "slow change of it, to either side");
+  schema.real("sim.brightness_drift_period_s", o.drift_period_s, {0.1, 1e6}, "period of that");
+  schema.real("sim.brightness_jump_ratio", o.jump_ratio, {0.0, 1.0}, "sudden change of it, to either side");
+  schema.real("sim.brightness_jump_interval_s", o.jump_interval_s, {0.1, 1e6}, "time between those");
+  schema.real("sim.lens_covered_from_s", o.covered_from_s, {0.0, 1e6},
+              "when something black covers the lens");
+  schema.real("sim.lens_covered_for_s", o.covered_for_s, {0.0, 1e6}, "... and how long");
+  schema.real("sim.image_drop_probability", o.drop_probability, kProbability, "chance that an image is lost");
+  schema.real("sim.vibration_pitch_deg", o.vibration_pitch_deg, {0.0, 10.0},
+              "standard deviation of the mount's nodding");
+  schema.real("sim.vibration_roll_deg", o.vibration_roll_deg, {0.0, 10.0}, "... of its rolling");
+  schema.real("sim.vibration_height_m", o.vibration_height_m, {0.0, 1.0}, "... of its height");
 }
 
 void describe(Schema& schema, TruthOptions& o) {
@@ -189,6 +245,33 @@ SimOptions forest() {
   return options;
 }
 
+/// A camera at 30 images/s on wheels whose encoders are read as often. They are calibrated like those of the
+/// study (RoomDriftsByOnePointSixMetresPerLap), for a lap at 0.5 m/s whose corners are driven with a radius
+/// of 0.5 m.
+SimOptions filmed(SceneKind scene) {
+  SimOptions options = study();
+  options.path.laps = 1;
+  options.path.corner_radius_m = 0.5;
+  options.path.speed_mps = 0.5;
+  options.world.landmarks = 0;
+  options.wheels.rate_hz = 30.0;
+  options.wheels.var_m2_per_m = 3.5e-4;
+  options.truth.rate_hz = 30.0;
+  options.room = {
+      .scene = scene, .margin_m = 2.0, .height_m = 2.5, .blocks = 24, .walkers = 1, .walker_speed_mps = 1.0};
+  options.film = FilmOptions{};
+  return options;
+}
+
+SimOptions corridor() {
+  SimOptions options = filmed(SceneKind::kCorridor);
+  options.path.shape = Shape::kLoop;
+  options.path.side_m = 24.0;
+  options.room.margin_m = 1.0;
+  options.room.blocks = 40;
+  return options;
+}
+
 const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
   static const std::vector<std::pair<std::string, SimOptions>> all{
       {"square", shaped(Shape::kSquare)},
@@ -197,6 +280,8 @@ const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
       {"random", shaped(Shape::kRandom)},
       {"study", study()},
       {"forest", forest()},
+      {"room", filmed(SceneKind::kRoom)},
+      {"corridor", corridor()},
       {"report-square", report(Shape::kSquare)},
       {"report-l-shape", report(Shape::kLShape)},
   };
@@ -213,6 +298,18 @@ Result<void> validate_limits(SimOptions options) {
   return {};
 }
 
+// Light must reach the corners, half a pixel beyond the last.
+Result<void> validate_lens(const FilmOptions& film) {
+  const Camera camera(camera_of(film));
+  for (const double u : {-1.0, static_cast<double>(film.width_px)})
+    for (const double v : {-1.0, static_cast<double>(film.height_px)})
+      if (!camera.ray({u, v}))
+        return Error{
+            "simulation: with sim.camera_k1, k2, p1, p2 and k3 no light reaches the corners of the image; "
+            "bring them nearer to 0 or lower sim.camera_field_of_view_deg"};
+  return {};
+}
+
 }  // namespace
 
 void describe(Schema& schema, SimOptions& options) {
@@ -220,12 +317,28 @@ void describe(Schema& schema, SimOptions& options) {
   describe(schema, options.world);
   describe(schema, options.wheels);
   describe(schema, options.sensor);
+  describe(schema, options.room);
+  describe(schema, options.film);
   describe(schema, options.truth);
+}
+
+CameraOptions camera_of(const FilmOptions& options) {
+  CameraOptions camera{.width_px = options.width_px, .height_px = options.height_px};
+  camera.fu_px = 0.5 * options.width_px / std::tan(0.5 * to_radians(options.field_of_view_deg));
+  camera.fv_px = camera.fu_px;
+  camera.cu_px = 0.5 * (options.width_px - 1);
+  camera.cv_px = 0.5 * (options.height_px - 1);
+  camera.distortion = options.distortion;
+  camera.mount = options.mount;
+  return camera;
 }
 
 Result<void> validate(const SimOptions& options) {
   if (auto limits = validate_limits(options); !limits) return limits;
-  const auto& [path, world, wheels, sensor, truth] = options;
+  const auto& [path, world, wheels, sensor, room, film, truth] = options;
+  if (auto lens = validate_lens(film); !lens) return lens;
+  if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
+    return Error{"simulation: sim.scene is corridor, which leads round a sim.path of square or loop only"};
   if (world.spread == Spread::kPath && world.max_offset_m < world.min_offset_m + 0.1) {
     return Error{fmt::format(
         "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",

@@ -7,13 +7,15 @@
 
 #include "waymark/core/config.hpp"
 #include "waymark/core/result.hpp"
+#include "waymark/models/camera.hpp"
 
 namespace waymark::sim {
 
-enum class Shape : std::uint8_t { kSquare, kLShape, kFigureEight, kRandom };
+enum class Shape : std::uint8_t { kSquare, kLShape, kFigureEight, kRandom, kLoop };
 enum class OdometryKind : std::uint8_t { kWheels, kVelocity, kPose };
 enum class Spread : std::uint8_t { kPath, kArea };
 enum class Observe : std::uint8_t { kRangeBearing, kRange, kBearing };
+enum class SceneKind : std::uint8_t { kNone, kRoom, kCorridor };
 
 /// The closed path that the robot is told to drive.
 struct PathOptions {
@@ -71,6 +73,40 @@ struct SensorOptions {
   bool identities = true;
 };
 
+/// What there is to be seen by a camera: a hall around the path, or a corridor along it.
+struct RoomOptions {
+  SceneKind scene = SceneKind::kNone;
+  double margin_m = 2.0;
+  double height_m = 2.5;
+  int blocks = 24;
+  int walkers = 1;
+  double walker_speed_mps = 1.0;
+};
+
+/// A camera, and how badly it sees.
+struct FilmOptions {
+  int width_px = 320;
+  int height_px = 240;
+  double rate_hz = 30.0;
+  double field_of_view_deg = 60.0;
+  Distortion distortion{.k1 = -0.12, .k2 = 0.03, .p1 = 0.0005, .p2 = -0.0003};
+  CameraMount mount{.x_m = 0.1, .z_m = 0.5};
+  double lens_blur_px = 0.5;
+  double exposure_ms = 5.0;
+  double noise_grey = 2.0;
+  double brightness = 1.0;
+  double drift_ratio = 0.1;
+  double drift_period_s = 20.0;
+  double jump_ratio = 0.25;
+  double jump_interval_s = 10.0;
+  double covered_from_s = 0.0;
+  double covered_for_s = 0.0;
+  double drop_probability = 0.0;
+  double vibration_pitch_deg = 0.05;
+  double vibration_roll_deg = 0.05;
+  double vibration_height_m = 0.001;
+};
+
 /// How much of the truth the log holds.
 struct TruthOptions {
   double rate_hz = 10.0;
@@ -83,11 +119,16 @@ struct SimOptions {
   WorldOptions world;
   WheelOptions wheels;
   SensorOptions sensor;
+  RoomOptions room;
+  FilmOptions film;
   TruthOptions truth;
 };
 
 /// Adds every option as a key under `sim.`.
 void describe(Schema& schema, SimOptions& options);
+
+/// The camera as a filter is to be told of it.
+[[nodiscard]] CameraOptions camera_of(const FilmOptions& options);
 
 /// Every value within its limits and all of them possible together; otherwise names the key and what would be
 /// right.
@@ -103,6 +144,9 @@ Result<void> validate(const SimOptions& options);
 /// 1 m apart and 0.5 m from the path, two laps of a random path at 1 m/s with the wheels of the study, a
 /// sensor of 10 m and 180 degrees at 5 scans/s with 0.1 m and 1 degree of noise, one in twenty sightings
 /// missing and one in twenty accompanied by a false one, no identities.
+///
+/// `room` and `corridor` are to be seen by a camera: the 6 m square in a room of 10 x 10 m, and a loop of 24
+/// x 8 m in a corridor 2 m wide, at 0.5 m/s.
 ///
 /// `report-square` and `report-l-shape` are the worlds of the FastSLAM report on a Pioneer 3-DX.
 Result<SimOptions> scenario(std::string_view name);

@@ -15,6 +15,11 @@ Corners square_corners(double side_m) {
   return {{h, -h}, {h, h}, {-h, h}, {-h, -h}};
 }
 
+Corners loop_corners(double side_m) {
+  const double h = side_m / 2.0;
+  return {{h, -h / 3.0}, {h, h / 3.0}, {-h, h / 3.0}, {-h, -h / 3.0}};
+}
+
 Corners l_shape_corners(double side_m) {
   const double h = side_m / 2.0;
   return {{h, -h}, {h, 0.0}, {0.0, 0.0}, {0.0, h}, {-h, h}, {-h, -h}};
@@ -110,6 +115,8 @@ Path make_path(const PathOptions& options, std::uint64_t seed) {
       return polygon_path(square_corners(options.side_m), options.corner_radius_m);
     case Shape::kLShape:
       return polygon_path(l_shape_corners(options.side_m), options.corner_radius_m);
+    case Shape::kLoop:
+      return polygon_path(loop_corners(options.side_m), options.corner_radius_m);
     case Shape::kFigureEight:
       return figure_eight_path(options.side_m);
     case Shape::kRandom:

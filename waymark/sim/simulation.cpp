@@ -8,6 +8,7 @@
 #include "waymark/core/random.hpp"
 #include "waymark/sim/landmark_sensor.hpp"
 #include "waymark/sim/path.hpp"
+#include "waymark/sim/rooms.hpp"
 #include "waymark/sim/wheels.hpp"
 #include "waymark/sim/world.hpp"
 
@@ -19,7 +20,9 @@ constexpr double kEventsMax = 1e7;
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
 
-std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& options) {
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+Settings sensor_settings(const SimOptions& options) {
   const WheelGeometry wheels = geometry(options.wheels);
   const OdometryNoise noise = assumed_noise(options.wheels);
   const LandmarkSensor sensor = model_of(options.sensor);
@@ -43,8 +46,25 @@ std::vector<std::pair<std::string, std::string>> settings_of(const SimOptions& o
       {"sensor.field_of_view_deg", sensor.field_of_view_deg},
       {"sensor.detection_probability", sensor.detection_probability},
   };
-  std::vector<std::pair<std::string, std::string>> settings;
+  Settings settings;
   for (const auto& [key, value] : values) settings.emplace_back(key, fmt::format("{}", value));
+  return settings;
+}
+
+Settings camera_settings(CameraOptions camera) {
+  Schema schema;
+  describe(schema, camera);
+  Settings settings;
+  for (const std::string& key : schema.keys()) settings.emplace_back(key, schema.value(key));
+  return settings;
+}
+
+bool has_images(const SimOptions& options) { return options.room.scene != SceneKind::kNone; }
+
+Settings settings_of(const SimOptions& options) {
+  Settings settings = sensor_settings(options);
+  if (has_images(options))
+    std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(settings));
   return settings;
 }
 
@@ -116,10 +136,15 @@ void add_truth(std::vector<Event>& events, const Drive& drive, const TruthOption
   for (const Stamp stamp : stamps) events.push_back(truth_event(drive, stamp, options.heading));
 }
 
+void add_images(std::vector<Event>& events, const Film& film) {
+  for (std::size_t i = 0; i < film.size(); ++i)
+    if (!film.is_lost(i)) events.emplace_back(film.stamp(i), Image{});
+}
+
 Result<void> check_size(const Path& path, const SimOptions& options) {
   const double duration_s = options.path.laps * lap_duration_s(path, options);
-  const double events =
-      duration_s * (options.wheels.rate_hz + options.sensor.rate_hz + options.truth.rate_hz);
+  const double events = duration_s * (options.wheels.rate_hz + options.sensor.rate_hz +
+                                      options.truth.rate_hz + options.film.rate_hz);
   if (events <= kEventsMax) return {};
   return Error{
       fmt::format("simulation: the drive would take {:.0f} s and {:.2g} events, at most {:.2g} can be made; "
@@ -130,7 +155,7 @@ Result<void> check_size(const Path& path, const SimOptions& options) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const SimOptions& options,
-                                                     std::uint64_t seed) {
+                                                     std::uint64_t seed, int threads) {
   if (auto valid = validate(options); !valid) return valid.error();
   const Path path = make_path(options.path, seed);
   if (auto size = check_size(path, options); !size) return size.error();
@@ -143,7 +168,20 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);
   add_truth(events, driven, options.truth);
-  return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events)));
+  std::unique_ptr<Film> film;
+  if (has_images(options)) {
+    film = std::make_unique<Film>(options.film, build_scene(options.room, path, seed), driven, seed, threads);
+    add_images(events, *film);
+  }
+  return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events), std::move(film)));
+}
+
+Result<std::optional<Event>> Simulation::next() {
+  auto event = EventList::next();
+  if (event && *event)
+    if (auto* image = std::get_if<Image>(&(**event).content))
+      image->pixels = std::make_shared<const GreyImage>(film_->take(film_->number((**event).stamp)));
+  return event;
 }
 
 }  // namespace waymark::sim

@@ -48,6 +48,7 @@ Schema describe(Config& config) {
   describe(schema, config.input);
   describe(schema, config.odometry);
   describe(schema, config.sensor);
+  describe(schema, config.camera);
   describe(schema, config.pipeline);
   describe(schema, config.gate);
   describe(schema, config.association);
@@ -71,7 +72,7 @@ Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, con
   config.sim = *world;
   Schema schema = describe(config);
   if (auto done = apply(schema, user); !done) return done.error();
-  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed);
+  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed, config.threads);
   if (!simulation) return simulation.error();
   return std::unique_ptr<Source>(std::move(*simulation));
 }

@@ -13,6 +13,7 @@
 #include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 #include "waymark/io/open_source.hpp"
+#include "waymark/models/camera.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/odometry.hpp"
 #include "waymark/sim/options.hpp"
@@ -37,6 +38,7 @@ struct Config {
   InputOptions input;
   OdometryOptions odometry;
   LandmarkSensor sensor;
+  CameraOptions camera;
   PipelineOptions pipeline;
   GateOptions gate;
   AssociationOptions association;

@@ -1,0 +1,200 @@
+// The kernels of the camera front end, each on every instruction set of this machine; items are candidates
+// (ZMSSD) or frames (corners).
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <hwy/targets.h>
+
+#include "waymark/core/grey_image.hpp"
+#include "waymark/core/random.hpp"
+#include "waymark/io/image_file.hpp"
+#include "waymark/kernels/zmssd.hpp"
+#include "waymark/vision/corners.hpp"
+
+#ifdef WAYMARK_WITH_OPENCV
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#endif
+
+namespace waymark::kernels {
+namespace {
+
+// The mean of the pixels that each pixel of the smaller image covers.
+GreyImage scaled(const ImageView& image, int width_px, int height_px) {
+  GreyImage small(width_px, height_px);
+  for (int v = 0; v < height_px; ++v) {
+    for (int u = 0; u < width_px; ++u) {
+      const int u0 = u * image.width_px / width_px,
+                u1 = std::max((u + 1) * image.width_px / width_px, u0 + 1);
+      const int v0 = v * image.height_px / height_px,
+                v1 = std::max((v + 1) * image.height_px / height_px, v0 + 1);
+      int sum = 0;
+      for (int y = v0; y < v1; ++y)
+        for (int x = u0; x < u1; ++x) sum += image(x, y);
+      small(u, v) = static_cast<std::uint8_t>(sum / ((u1 - u0) * (v1 - v0)));
+    }
+  }
+  return small;
+}
+
+// Squares of any size, where there are no photographs.
+GreyImage squares() {
+  RandomStream random(1, StreamPurpose::kWorld);
+  GreyImage image(320, 240);
+  for (int i = 0; i < 2000; ++i) {
+    const int u0 = static_cast<int>(random.uniform(0.0, 320.0)),
+              v0 = static_cast<int>(random.uniform(0.0, 240.0));
+    const int side = static_cast<int>(random.uniform(2.0, 40.0));
+    const auto grey = static_cast<std::uint8_t>(random.uniform(0.0, 256.0));
+    for (int v = v0; v < std::min(v0 + side, 240); ++v)
+      for (int u = u0; u < std::min(u0 + side, 320); ++u) image(u, v) = grey;
+  }
+  return image;
+}
+
+struct Frame {
+  std::string name;
+  GreyImage image;
+};
+
+// Photographs at 320 x 240, and the middle of a large one.
+std::vector<Frame> make_frames() {
+  std::vector<Frame> frames{{"squares", squares()}};
+  const char* data = std::getenv("WAYMARK_DATA_DIR");
+  const std::filesystem::path folder =
+      std::filesystem::path(data != nullptr ? data : WAYMARK_DATA_DIR) / "gray-images";
+  for (const char* name :
+       {"graf1.png", "leuvenA.jpg", "building.jpg", "home.jpg", "rubberwhale1.png", "box_in_scene.png"}) {
+    const auto photograph = read_image(folder / name);
+    if (photograph.ok()) frames.push_back({name, scaled(*photograph, 320, 240)});
+  }
+  const auto building = read_image(folder / "building.jpg");
+  if (!building.ok()) return frames;
+  GreyImage middle(320, 240);
+  for (int v = 0; v < 240; ++v) std::copy_n(building->view().pixel(270, 180 + v), 320, &middle(0, v));
+  frames.push_back({"building_middle", std::move(middle)});
+  return frames;
+}
+
+const std::vector<Frame>& frames() {
+  static const std::vector<Frame> all = make_frames();
+  return all;
+}
+
+const GreyImage& frame() { return frames().front().image; }
+
+// The circle of windows that a search with this radius goes through.
+std::vector<WindowRow> circle(int radius) {
+  std::vector<WindowRow> rows;
+  for (int v = -radius; v <= radius; ++v) {
+    const int half = static_cast<int>(std::sqrt(radius * radius - v * v));
+    rows.push_back({radius - half, 2 * half + 1});
+  }
+  return rows;
+}
+
+std::int64_t windows_of(const std::vector<WindowRow>& rows) {
+  std::int64_t count = 0;
+  for (const WindowRow& row : rows) count += row.count;
+  return count;
+}
+
+void search(benchmark::State& state, std::int64_t target, int size, int radius) {
+  hwy::SetSupportedTargetsForTest(target);
+  const ZmssdPatch patch = make_zmssd_patch(frame().view().pixel(100, 100), frame().stride(), size);
+  const std::vector<WindowRow> rows = circle(radius);
+  std::vector<std::uint32_t> scores(static_cast<std::size_t>(windows_of(rows)));
+  int v = 0;
+  for (auto _ : state) {
+    v = (v + 1) % 100;
+    zmssd_search(patch, frame().view().pixel(50, v), frame().stride(), rows.data(), rows.size(),
+                 scores.data());
+    benchmark::DoNotOptimize(scores.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * windows_of(rows));
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+void search_plain(benchmark::State& state, int size, int radius) {
+  const std::uint8_t* patch = frame().view().pixel(100, 100);
+  const std::vector<WindowRow> rows = circle(radius);
+  for (auto _ : state) {
+    int v = 0;
+    for (const WindowRow& row : rows) {
+      const std::uint8_t* window = frame().view().pixel(50 + row.first, v++);
+      for (int u = 0; u < row.count; ++u)
+        benchmark::DoNotOptimize(
+            reference::zmssd(patch, frame().stride(), window + u, frame().stride(), size));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * windows_of(rows));
+}
+
+void corners(benchmark::State& state, const GreyImage& image, int arc) {
+  vision::CornerDetector detector({.threshold = 20, .arc = arc});
+  std::size_t found = 0;
+  for (auto _ : state) found = detector.detect(image).size();
+  state.counters["corners"] = static_cast<double>(found);
+}
+
+#ifdef WAYMARK_WITH_OPENCV
+void corners_opencv(benchmark::State& state, const GreyImage& image) {
+  cv::setNumThreads(1);
+  const cv::Mat pixels(image.height_px(), image.width_px(), CV_8U, const_cast<std::uint8_t*>(image.data()));
+  std::vector<cv::KeyPoint> points;
+  for (auto _ : state) cv::FAST(pixels, points, 20, true, cv::FastFeatureDetector::TYPE_9_16);
+  state.counters["corners"] = static_cast<double>(points.size());
+}
+
+// All windows of a 64 x 64 search, as cv::matchTemplate scores them.
+void match_template_opencv(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const GreyImage& image = frame();
+  const cv::Mat pixels(image.height_px(), image.width_px(), CV_8U, const_cast<std::uint8_t*>(image.data()));
+  const cv::Mat area = pixels(cv::Rect(50, 50, 79, 79)), patch = pixels(cv::Rect(100, 100, 16, 16));
+  cv::Mat scores;
+  for (auto _ : state) cv::matchTemplate(area, patch, scores, cv::TM_CCOEFF);
+  state.SetItemsProcessed(state.iterations() * 64 * 64);
+}
+#endif
+
+void register_corners() {
+  for (const Frame& f : frames()) {
+    for (const int arc : {9, 12})
+      benchmark::RegisterBenchmark(("corners/" + std::to_string(arc) + "/" + f.name).c_str(), corners,
+                                   f.image, arc);
+#ifdef WAYMARK_WITH_OPENCV
+    benchmark::RegisterBenchmark(("corners_opencv/9/" + f.name).c_str(), corners_opencv, f.image);
+#endif
+  }
+}
+
+void register_searches() {
+  for (const int size : {16, 13, 11, 9, 8}) {
+    for (const int radius : {4, 12, 28}) {
+      const std::string suffix = "/" + std::to_string(size) + "/" + std::to_string(radius);
+      for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        benchmark::RegisterBenchmark(("zmssd/" + std::string(hwy::TargetName(target)) + suffix).c_str(),
+                                     search, target, size, radius);
+      benchmark::RegisterBenchmark(("zmssd/plain" + suffix).c_str(), search_plain, size, radius);
+    }
+  }
+#ifdef WAYMARK_WITH_OPENCV
+  benchmark::RegisterBenchmark("match_template_opencv/16/64", match_template_opencv);
+#endif
+}
+
+const bool kRegistered = [] {
+  register_searches();
+  register_corners();
+  return true;
+}();
+
+}  // namespace
+}  // namespace waymark::kernels

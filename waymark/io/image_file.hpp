@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "waymark/core/grey_image.hpp"
+#include "waymark/core/result.hpp"
+
+namespace waymark {
+
+struct ImageSize {
+  int width_px = 0;
+  int height_px = 0;
+
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
+/// Larger ones are taken for damage.
+inline constexpr int kMaxImageSide_px = 16384;
+
+/// A PNG or JPEG file, told by its first bytes, as grey = 0.299 R + 0.587 G + 0.114 B. Transparent parts lie
+/// on black. Damaged and cut-off files, and those of another size than `expected`, are errors.
+[[nodiscard]] Result<GreyImage> read_image(const std::filesystem::path& path,
+                                           std::optional<ImageSize> expected = {});
+/// The same from memory, as camera messages in bags have them; `name` stands for the file in errors.
+[[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, const std::string& name,
+                                             std::optional<ImageSize> expected = {});
+
+/// As a grey PNG file.
+[[nodiscard]] Result<void> write_png(const std::filesystem::path& path, const ImageView& image);
+
+}  // namespace waymark

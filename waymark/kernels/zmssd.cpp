@@ -1,0 +1,287 @@
+#include "waymark/kernels/zmssd.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#ifndef WAYMARK_KERNELS_ZMSSD_PLAIN
+#define WAYMARK_KERNELS_ZMSSD_PLAIN
+namespace waymark::kernels {
+namespace {
+
+// The plain formula for one window, with the pixels of the patch as `patch_at(row, column)`.
+template <class PatchAt>
+std::uint32_t plain_zmssd(PatchAt patch_at, const std::uint8_t* window, std::ptrdiff_t stride, int size) {
+  std::int64_t sum = 0, squares = 0;
+  for (int r = 0; r < size; ++r) {
+    for (int c = 0; c < size; ++c) {
+      const int difference = patch_at(r, c) - window[r * stride + c];
+      sum += difference;
+      squares += difference * difference;
+    }
+  }
+  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
+}
+
+}  // namespace
+}  // namespace waymark::kernels
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "waymark/kernels/zmssd.cpp"
+// Lane counts must be known at compile time; SVE machines run the NEON code.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace waymark::kernels::HWY_NAMESPACE {
+#if HWY_TARGET == HWY_SCALAR
+
+void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
+            std::size_t row_count, std::uint32_t* scores) {
+  const auto patch_at = [&](int r, int c) { return patch.rows[r][c]; };
+  for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
+    for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
+      *scores++ = plain_zmssd(patch_at, pixels + u, stride, patch.size);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kBand = 64;  // windows side by side
+// The columns of image below a band of windows, and what vectors read behind them.
+constexpr int kColumns = kBand + kMaxPatchSize + ZmssdPatch::kLanes;
+constexpr int kRing =
+    32;  // rows of image that are kept: the row that leaves the windows and the one that comes
+
+// What the windows of a row of a band have in common. Goes down the image row by row.
+struct Band {
+  alignas(64) std::int16_t pixels[kRing][kColumns];  // zero behind the last column
+  alignas(64) std::uint16_t sum[kColumns];           // of each column of pixels as high as the windows
+  alignas(64) std::uint32_t squares[kColumns];
+  alignas(64) std::int32_t products[kColumns];  // sum d i of each window
+
+  const std::int16_t* rows[kMaxPatchSize];  // of pixels that the windows cover
+  int columns = 0;
+  int from = 0, to = 0;  // rows of image that were taken in without a gap
+};
+
+template <class Value>
+HWY_INLINE void zero(Value* values, int count) {
+  const hn::CappedTag<Value, 32 / sizeof(Value)> d;
+  for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) hn::StoreU(hn::Zero(d), d, values + k);
+}
+
+// All columns of a row; the last vector overlaps the one before it instead of reading behind the row.
+template <class D>
+HWY_INLINE void widen(D d16, const std::uint8_t* pixels, int columns, std::int16_t* wide) {
+  const hn::Rebind<std::uint8_t, D> d8;
+  const int lanes = static_cast<int>(hn::Lanes(d16));
+  const auto widen_at = [&](int u) HWY_ATTR {
+    hn::StoreU(hn::PromoteTo(d16, hn::LoadU(d8, pixels + u)), d16, wide + u);
+  };
+  for (int u = 0; u + lanes < columns; u += lanes) widen_at(u);
+  widen_at(columns - lanes);
+}
+
+// Takes one row of pixels into the sums of the columns and another one out.
+HWY_INLINE void exchange(const std::int16_t* come, const std::int16_t* leave, Band& band) {
+  const hn::CappedTag<std::uint16_t, 16> d16;
+  const hn::RebindToSigned<decltype(d16)> signed16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  const int half = static_cast<int>(hn::Lanes(d32));
+  for (int u = 0; u < band.columns; u += 2 * half) {
+    const auto in = hn::BitCast(d16, hn::LoadU(signed16, come + u));
+    const auto out = hn::BitCast(d16, hn::LoadU(signed16, leave + u));
+    hn::Store(hn::Add(hn::Load(d16, band.sum + u), hn::Sub(in, out)), d16, band.sum + u);
+    const auto squares_in = hn::Mul(in, in), squares_out = hn::Mul(out, out);  // 255^2 fits
+    const auto add = [&](auto more, auto less, std::uint32_t* at) HWY_ATTR {
+      const auto change = hn::Sub(hn::PromoteTo(d32, more), hn::PromoteTo(d32, less));
+      hn::Store(hn::Add(hn::Load(d32, at), change), d32, at);
+    };
+    const hn::Half<decltype(d16)> d_half;
+    add(hn::LowerHalf(squares_in), hn::LowerHalf(squares_out), band.squares + u);
+    add(hn::UpperHalf(d_half, squares_in), hn::UpperHalf(d_half, squares_out), band.squares + u + half);
+  }
+}
+
+HWY_INLINE std::int16_t* ring_row(Band& band, int v) { return band.pixels[static_cast<unsigned>(v) % kRing]; }
+
+// Goes down to the windows whose first pixels are in row v; `pixels` is that row.
+HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stride, int size, Band& band) {
+  alignas(64) static constexpr std::int16_t kNone[kColumns] = {};
+  if (band.to <= v) {
+    zero(band.sum, kColumns);
+    zero(band.squares, kColumns);
+    band.from = band.to = v;
+  }
+  for (; band.to < v + size; ++band.to) {
+    const std::uint8_t* row = pixels + (band.to - v) * stride;
+    std::int16_t* come = ring_row(band, band.to);
+    if (band.columns >= 16)
+      widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, come);
+    else
+      widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, come);
+    const int left = band.to - size;
+    exchange(come, left >= band.from ? ring_row(band, left) : kNone, band);
+  }
+  for (int r = 0; r < size; ++r) band.rows[r] = ring_row(band, v + r);
+}
+
+// Sums of neighbouring lanes of four vectors: each block of four lanes holds that of a, b, c and d.
+template <class V>
+HWY_INLINE V sums_of_blocks(V a, V b, V c, V d) {
+  const hn::DFromV<V> d32;
+  const hn::RepartitionToWide<decltype(d32)> d64;
+  const auto pairs = [&](V x, V y) HWY_ATTR {
+    return hn::BitCast(d64, hn::Add(hn::InterleaveLower(d32, x, y), hn::InterleaveUpper(d32, x, y)));
+  };
+  const auto ab = pairs(a, b), cd = pairs(c, d);
+  return hn::Add(hn::BitCast(d32, hn::InterleaveLower(d64, ab, cd)),
+                 hn::BitCast(d32, hn::InterleaveUpper(d64, ab, cd)));
+}
+
+// sum d i of the windows u .. u + 3, and of those at u + kWidth, u + 2 kWidth, ... as far as a
+// vector reaches.
+template <int kWidth, class D>
+HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Band& band) {
+  const hn::RepartitionToWide<D> d32;
+  const hn::FixedTag<std::int32_t, 4> block;
+  constexpr int kVector = static_cast<int>(hn::MaxLanes(D()));
+  constexpr int kReach = kVector < kWidth ? kWidth : kVector;
+  hn::Vec<decltype(d32)> even[4], odd[4];
+  for (int k = 0; k < 4; ++k) even[k] = odd[k] = hn::Zero(d32);
+  for (int r = 0; r < patch.size; ++r) {
+    const std::int16_t* pixels = band.rows[r] + u;
+    for (int part = 0; part < kReach; part += kVector) {
+      const auto d = hn::Load(d16, &patch.rows[r][part]);
+      for (int k = 0; k < 4; ++k) {
+        const auto i = hn::LoadU(d16, pixels + k + part);
+        even[k] = hn::ReorderWidenMulAccumulate(d32, d, i, even[k], odd[k]);
+      }
+    }
+  }
+  for (int k = 0; k < 4; ++k) even[k] = hn::Add(even[k], odd[k]);
+  alignas(64) std::int32_t sums[16];
+  hn::Store(sums_of_blocks(even[0], even[1], even[2], even[3]), d32, sums);
+  for (int w = 0; w < kReach; w += kWidth) {
+    constexpr int kBlocks = std::min(kWidth, kVector) / 8;
+    auto sum = hn::Load(block, sums + w / 2);
+    if constexpr (kBlocks == 2) sum = hn::Add(sum, hn::Load(block, sums + w / 2 + 4));
+    hn::StoreU(sum, block, band.products + u + w);
+  }
+}
+
+// ... of the windows begin <= u < end.
+template <int kWidth, class D>
+HWY_INLINE void multiply(D d16, const ZmssdPatch& patch, int begin, int end, Band& band) {
+  constexpr int kReach = std::max(static_cast<int>(hn::MaxLanes(D())), kWidth);
+  for (int from = begin; from < end; from += kReach)
+    for (int u = from; u < std::min(from + kWidth, end); u += 4) multiply_four<kWidth>(d16, patch, u, band);
+}
+
+// A long vector serves several windows, where there are enough of them.
+template <int kWidth>
+HWY_INLINE void multiply_best(const ZmssdPatch& patch, int begin, int end, Band& band) {
+  const hn::CappedTag<std::int16_t, ZmssdPatch::kLanes> wide;
+  const hn::CappedTag<std::int16_t, kWidth> narrow;
+  if (end - begin > 2 * kWidth)
+    multiply<kWidth>(wide, patch, begin, end, band);
+  else
+    multiply<kWidth>(narrow, patch, begin, end, band);
+}
+
+HWY_INLINE void finish(const ZmssdPatch& patch, int begin, int end, const Band& band, std::uint32_t* scores) {
+  const hn::CappedTag<std::uint32_t, 8> d32;
+  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const auto n = hn::Set(d32, static_cast<std::uint32_t>(patch.size * patch.size));
+  const auto patch_sum = hn::Set(d32, patch.sum), patch_squares = hn::Set(d32, patch.sum_of_squares);
+  alignas(64) std::uint32_t all[kBand];
+  for (int u = begin; u < end; u += static_cast<int>(hn::Lanes(d32))) {
+    auto sum = hn::Zero(d16);
+    auto squares = hn::Zero(d32);
+    for (int k = 0; k < patch.size; ++k) {
+      sum = hn::Add(sum, hn::LoadU(d16, band.sum + u + k));  // of 256 pixels fits
+      squares = hn::Add(squares, hn::LoadU(d32, band.squares + u + k));
+    }
+    const auto products = hn::BitCast(d32, hn::LoadU(hn::RebindToSigned<decltype(d32)>(), band.products + u));
+    const auto ssd = hn::Sub(hn::Add(patch_squares, squares), hn::Add(products, products));
+    const auto shift = hn::Sub(patch_sum, hn::PromoteTo(d32, sum));
+    hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + (u - begin));
+  }
+  std::copy_n(all, end - begin, scores);
+}
+
+// The windows of all rows in the columns first to first + width - 1.
+void search_band(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                 const WindowRow* rows, std::size_t row_count, int first, int width, std::uint32_t* scores) {
+  Band band;
+  band.columns = width + patch.size - 1;
+  for (auto& row : band.pixels) zero(row + band.columns, ZmssdPatch::kLanes);
+  for (std::size_t k = 0; k < row_count; scores += rows[k].count, ++k) {
+    const int begin = std::max(rows[k].first - first, 0);
+    const int end = std::min(rows[k].first + rows[k].count - first, width);
+    if (begin >= end) continue;
+    const int v = static_cast<int>(k);
+    go_to_row(v, pixels + v * stride + first, stride, patch.size, band);
+    if (patch.size == 8)
+      multiply_best<8>(patch, begin, end, band);
+    else
+      multiply_best<16>(patch, begin, end, band);
+    finish(patch, begin, end, band, scores + (first + begin - rows[k].first));
+  }
+}
+
+void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
+            std::size_t row_count, std::uint32_t* scores) {
+  int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+  for (std::size_t k = 0; k < row_count; ++k) {
+    if (rows[k].count <= 0) continue;
+    first = std::min(first, rows[k].first);
+    last = std::max(last, rows[k].first + rows[k].count);
+  }
+  for (; first < last; first += kBand)
+    search_band(patch, pixels, stride, rows, row_count, first, std::min(last - first, kBand), scores);
+}
+
+#endif
+
+}  // namespace waymark::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace waymark::kernels {
+
+HWY_EXPORT(search);
+
+ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, int size) {
+  ZmssdPatch patch;
+  patch.size = size;
+  const int width = size == 8 ? 8 : kMaxPatchSize;
+  for (int r = 0; r < size; ++r) {
+    for (int c = 0; c < size; ++c) {
+      const std::uint8_t pixel = pixels[r * stride + c];
+      patch.sum += pixel;
+      patch.sum_of_squares += std::uint32_t{pixel} * pixel;
+      for (int copy = c; copy < ZmssdPatch::kLanes; copy += width) patch.rows[r][copy] = pixel;
+    }
+  }
+  return patch;
+}
+
+void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                  const WindowRow* rows, std::size_t row_count, std::uint32_t* scores) {
+  HWY_DYNAMIC_DISPATCH(search)(patch, pixels, stride, rows, row_count, scores);
+}
+
+namespace reference {
+
+std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride, const std::uint8_t* window,
+                    std::ptrdiff_t window_stride, int size) {
+  return plain_zmssd([&](int r, int c) { return patch[r * patch_stride + c]; }, window, window_stride, size);
+}
+
+}  // namespace reference
+}  // namespace waymark::kernels
+#endif
