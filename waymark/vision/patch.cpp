@@ -51,15 +51,21 @@ std::optional<ReferencePatch> cut_reference(const ImageView& image, int u, int v
 std::optional<Patch> warp_patch(const ReferencePatch& reference, const Eigen::Matrix2d& A, int size) {
   const Eigen::Matrix2d then_now = A.inverse();
   const Eigen::Vector2d centre = Eigen::Vector2d::Constant(ReferencePatch::kRadius);
+  // Four samples where a pixel now covers more than one of then; else one, which keeps the sharpness.
+  const double spread = then_now.cwiseAbs().maxCoeff() > 1.05 ? 0.25 : 0.0;
   Patch patch;
   patch.size = size;
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Vector2d offset(column - before_place(size), row - before_place(size));
-      const auto grey = grey_at(reference.view(), centre + then_now * offset);
-      if (!grey) return std::nullopt;
+      double sum = 0.0;
+      for (const Eigen::Vector2d& part : {Eigen::Vector2d(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+        const auto grey = grey_at(reference.view(), centre + then_now * (offset + spread * part));
+        if (!grey) return std::nullopt;
+        sum += 0.25 * *grey;
+      }
       patch.pixels[static_cast<std::size_t>(row * size + column)] =
-          static_cast<std::uint8_t>(std::lround(*grey));
+          static_cast<std::uint8_t>(std::lround(sum));
     }
   }
   return patch;

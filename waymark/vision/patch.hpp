@@ -38,7 +38,7 @@ constexpr int from_place(int size) { return size - size / 2; }
 
 /// What a landmark looked like when it was first seen, with enough around it to be turned and scaled.
 struct ReferencePatch {
-  static constexpr int kRadius = 16;
+  static constexpr int kRadius = 20;
   static constexpr int kSide = 2 * kRadius + 1;
 
   std::array<std::uint8_t, kSide * kSide> pixels{};  ///< centred on the landmark
@@ -49,7 +49,8 @@ struct ReferencePatch {
 [[nodiscard]] std::optional<ReferencePatch> cut_reference(const ImageView& image, int u, int v);
 
 /// What the reference looks like where the image around the landmark is A times that of the reference: A =
-/// d(pixel now)/d(pixel then). Bilinear. Nothing where it would need more than the reference holds.
+/// d(pixel now)/d(pixel then). Each pixel is the mean of four bilinear samples of its area. Nothing where it
+/// would need more than the reference holds.
 [[nodiscard]] std::optional<Patch> warp_patch(const ReferencePatch& reference, const Eigen::Matrix2d& A,
                                               int size);
 
