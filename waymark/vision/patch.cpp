@@ -9,16 +9,19 @@
 namespace waymark::vision {
 namespace {
 
-/// Between the four pixels around a place; nothing outside of the image.
-std::optional<double> grey_at(const ImageView& image, const Eigen::Vector2d& place) {
-  const double u = std::floor(place.x()), v = std::floor(place.y());
-  if (!(u >= 0.0 && v >= 0.0 && place.x() <= image.width_px - 1.0 && place.y() <= image.height_px - 1.0))
-    return std::nullopt;
-  const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-  const int u1 = std::min(u0 + 1, image.width_px - 1), v1 = std::min(v0 + 1, image.height_px - 1);
+/// Between the four pixels around a place at least one pixel inside the image.
+double grey_at(const ImageView& image, const Eigen::Vector2d& place) {
+  const int u = static_cast<int>(place.x()), v = static_cast<int>(place.y());
   const double a = place.x() - u, b = place.y() - v;
-  return (1.0 - b) * ((1.0 - a) * image(u0, v0) + a * image(u1, v0)) +
-         b * ((1.0 - a) * image(u0, v1) + a * image(u1, v1));
+  const std::uint8_t* upper = image.pixel(u, v);
+  const std::uint8_t* lower = upper + image.stride;
+  return (1.0 - b) * ((1.0 - a) * upper[0] + a * upper[1]) + b * ((1.0 - a) * lower[0] + a * lower[1]);
+}
+
+/// Does the square of offsets from -radius to radius, mapped by M, stay inside the reference?
+bool fits_reference(const Eigen::Matrix2d& M, double radius) {
+  const Eigen::Array2d reach = radius * M.cwiseAbs().rowwise().sum();
+  return (reach < ReferencePatch::kRadius).all();  // not for what is no number
 }
 
 }  // namespace
@@ -52,20 +55,21 @@ std::optional<Patch> warp_patch(const ReferencePatch& reference, const Eigen::Ma
   const Eigen::Matrix2d then_now = A.inverse();
   const Eigen::Vector2d centre = Eigen::Vector2d::Constant(ReferencePatch::kRadius);
   // Four samples where a pixel now covers more than one of then; else one, which keeps the sharpness.
-  const double spread = then_now.cwiseAbs().maxCoeff() > 1.05 ? 0.25 : 0.0;
+  const bool is_smaller = then_now.cwiseAbs().maxCoeff() > 1.05;
+  const Eigen::Matrix2d spread = 0.25 * then_now;
+  if (!fits_reference(then_now, before_place(size) + 0.25)) return std::nullopt;
+  const Eigen::Vector2d across = spread.col(0) + spread.col(1), along = spread.col(0) - spread.col(1);
+  const ImageView then = reference.view();
   Patch patch;
   patch.size = size;
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Vector2d offset(column - before_place(size), row - before_place(size));
-      double sum = 0.0;
-      for (const Eigen::Vector2d& part : {Eigen::Vector2d(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
-        const auto grey = grey_at(reference.view(), centre + then_now * (offset + spread * part));
-        if (!grey) return std::nullopt;
-        sum += 0.25 * *grey;
-      }
-      patch.pixels[static_cast<std::size_t>(row * size + column)] =
-          static_cast<std::uint8_t>(std::lround(sum));
+      const Eigen::Vector2d place = centre + then_now * offset;
+      const double grey = is_smaller ? 0.25 * (grey_at(then, place + across) + grey_at(then, place - across) +
+                                               grey_at(then, place + along) + grey_at(then, place - along))
+                                     : grey_at(then, place);
+      patch.pixels[static_cast<std::size_t>(row * size + column)] = static_cast<std::uint8_t>(grey + 0.5);
     }
   }
   return patch;
