@@ -22,6 +22,13 @@ std::uint32_t plain_zmssd(PatchAt patch_at, const std::uint8_t* window, std::ptr
   return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
 }
 
+// Where column c of row r lies in the pairs of a patch.
+template <class Patch>
+auto& patch_pixel(Patch& patch, int r, int c) {
+  const bool is_last_of_odd = r + 1 == patch.size && r % 2 == 0;
+  return patch.pairs[r / 2][2 * c + (is_last_of_odd ? 1 : r % 2)];
+}
+
 }  // namespace
 }  // namespace waymark::kernels
 #endif
@@ -39,7 +46,7 @@ namespace waymark::kernels::HWY_NAMESPACE {
 
 void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
             std::size_t row_count, std::uint32_t* scores) {
-  const auto patch_at = [&](int r, int c) { return patch.rows[r][c]; };
+  const auto patch_at = [&](int r, int c) { return patch_pixel(patch, r, c); };
   for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
     for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
       *scores++ = plain_zmssd(patch_at, pixels + u, stride, patch.size);
@@ -51,18 +58,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kBand = 64;  // windows side by side
 // The columns of image below a band of windows, and what vectors read behind them.
-constexpr int kColumns = kBand + kMaxPatchSize + ZmssdPatch::kLanes;
-constexpr int kRing =
-    32;  // rows of image that are kept: the row that leaves the windows and the one that comes
+constexpr int kBehind = 32;
+constexpr int kColumns = kBand + 2 * kMaxPatchSize + kBehind;
+// Rows of image that are kept: those below the windows, and the one that has just left them.
+constexpr int kRing = 32;
 
 // What the windows of a row of a band have in common. Goes down the image row by row.
 struct Band {
-  alignas(64) std::int16_t pixels[kRing][kColumns];  // zero behind the last column
-  alignas(64) std::uint16_t sum[kColumns];           // of each column of pixels as high as the windows
+  alignas(64) std::int16_t pixels[kRing][kColumns];     // zero behind the last column
+  alignas(64) std::int16_t pairs[kRing][2 * kColumns];  // the row above and this one, column by column
+  alignas(64) std::uint16_t sum[kColumns];              // of each column of pixels as high as the windows
   alignas(64) std::uint32_t squares[kColumns];
   alignas(64) std::int32_t products[kColumns];  // sum d i of each window
 
-  const std::int16_t* rows[kMaxPatchSize];  // of pixels that the windows cover
+  const std::int16_t* window_pairs[ZmssdPatch::kPairs];  // that the windows cover
   int columns = 0;
   int from = 0, to = 0;  // rows of image that were taken in without a gap
 };
@@ -106,7 +115,17 @@ HWY_INLINE void exchange(const std::int16_t* come, const std::int16_t* leave, Ba
   }
 }
 
-HWY_INLINE std::int16_t* ring_row(Band& band, int v) { return band.pixels[static_cast<unsigned>(v) % kRing]; }
+HWY_INLINE void pair_up(const std::int16_t* upper, const std::int16_t* lower, int columns,
+                        std::int16_t* pairs) {
+  const hn::FixedTag<std::int16_t, 8> d16;
+  for (int u = 0; u < columns; u += 8) {
+    const auto a = hn::LoadU(d16, upper + u), b = hn::LoadU(d16, lower + u);
+    hn::StoreU(hn::InterleaveLower(d16, a, b), d16, pairs + 2 * u);
+    hn::StoreU(hn::InterleaveUpper(d16, a, b), d16, pairs + 2 * u + 8);
+  }
+}
+
+constexpr unsigned slot(int v) { return static_cast<unsigned>(v) % kRing; }
 
 // Goes down to the windows whose first pixels are in row v; `pixels` is that row.
 HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stride, int size, Band& band) {
@@ -118,15 +137,19 @@ HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stri
   }
   for (; band.to < v + size; ++band.to) {
     const std::uint8_t* row = pixels + (band.to - v) * stride;
-    std::int16_t* come = ring_row(band, band.to);
+    std::int16_t* come = band.pixels[slot(band.to)];
     if (band.columns >= 16)
       widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, come);
     else
       widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, come);
     const int left = band.to - size;
-    exchange(come, left >= band.from ? ring_row(band, left) : kNone, band);
+    exchange(come, left >= band.from ? band.pixels[slot(left)] : kNone, band);
+    pair_up(band.to > band.from ? band.pixels[slot(band.to - 1)] : kNone, come, band.columns,
+            band.pairs[slot(band.to)]);
   }
-  for (int r = 0; r < size; ++r) band.rows[r] = ring_row(band, v + r);
+  // An odd last row is paired with the one above it, whose weights are then zero.
+  for (int k = 0; 2 * k < size; ++k)
+    band.window_pairs[k] = band.pairs[slot(v + std::min(2 * k + 1, size - 1))];
 }
 
 // Sums of neighbouring lanes of four vectors: each block of four lanes holds that of a, b, c and d.
@@ -142,54 +165,36 @@ HWY_INLINE V sums_of_blocks(V a, V b, V c, V d) {
                  hn::BitCast(d32, hn::InterleaveUpper(d64, ab, cd)));
 }
 
-// sum d i of the windows u .. u + 3, and of those at u + kWidth, u + 2 kWidth, ... as far as a
-// vector reaches.
-template <int kWidth, class D>
-HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Band& band) {
-  const hn::RepartitionToWide<D> d32;
-  const hn::FixedTag<std::int32_t, 4> block;
-  constexpr int kVector = static_cast<int>(hn::MaxLanes(D()));
-  constexpr int kReach = kVector < kWidth ? kWidth : kVector;
+// sum d i of the windows u .. u + 3 of patches up to kWidth pixels wide.
+template <int kWidth>
+HWY_INLINE void multiply_four(const ZmssdPatch& patch, int u, Band& band) {
+  const hn::CappedTag<std::int16_t, 2 * kWidth> d16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  constexpr int kVector = static_cast<int>(hn::MaxLanes(decltype(d16)()));
   hn::Vec<decltype(d32)> even[4], odd[4];
   for (int k = 0; k < 4; ++k) even[k] = odd[k] = hn::Zero(d32);
-  for (int r = 0; r < patch.size; ++r) {
-    const std::int16_t* pixels = band.rows[r] + u;
-    for (int part = 0; part < kReach; part += kVector) {
-      const auto d = hn::Load(d16, &patch.rows[r][part]);
+  for (int pair = 0; 2 * pair < patch.size; ++pair) {
+    const std::int16_t* pixels = band.window_pairs[pair] + 2 * u;
+    for (int part = 0; part < 2 * kWidth; part += kVector) {
+      const auto d = hn::Load(d16, &patch.pairs[pair][part]);
       for (int k = 0; k < 4; ++k) {
-        const auto i = hn::LoadU(d16, pixels + k + part);
+        const auto i = hn::LoadU(d16, pixels + 2 * k + part);
         even[k] = hn::ReorderWidenMulAccumulate(d32, d, i, even[k], odd[k]);
       }
     }
   }
   for (int k = 0; k < 4; ++k) even[k] = hn::Add(even[k], odd[k]);
-  alignas(64) std::int32_t sums[16];
+  alignas(64) std::int32_t sums[kVector / 2];
   hn::Store(sums_of_blocks(even[0], even[1], even[2], even[3]), d32, sums);
-  for (int w = 0; w < kReach; w += kWidth) {
-    constexpr int kBlocks = std::min(kWidth, kVector) / 8;
-    auto sum = hn::Load(block, sums + w / 2);
-    if constexpr (kBlocks == 2) sum = hn::Add(sum, hn::Load(block, sums + w / 2 + 4));
-    hn::StoreU(sum, block, band.products + u + w);
-  }
+  const hn::FixedTag<std::int32_t, 4> block;
+  auto sum = hn::Load(block, sums);
+  for (int k = 4; k < kVector / 2; k += 4) sum = hn::Add(sum, hn::Load(block, sums + k));
+  hn::StoreU(sum, block, band.products + u);
 }
 
-// ... of the windows begin <= u < end.
-template <int kWidth, class D>
-HWY_INLINE void multiply(D d16, const ZmssdPatch& patch, int begin, int end, Band& band) {
-  constexpr int kReach = std::max(static_cast<int>(hn::MaxLanes(D())), kWidth);
-  for (int from = begin; from < end; from += kReach)
-    for (int u = from; u < std::min(from + kWidth, end); u += 4) multiply_four<kWidth>(d16, patch, u, band);
-}
-
-// A long vector serves several windows, where there are enough of them.
 template <int kWidth>
-HWY_INLINE void multiply_best(const ZmssdPatch& patch, int begin, int end, Band& band) {
-  const hn::CappedTag<std::int16_t, ZmssdPatch::kLanes> wide;
-  const hn::CappedTag<std::int16_t, kWidth> narrow;
-  if (end - begin > 2 * kWidth)
-    multiply<kWidth>(wide, patch, begin, end, band);
-  else
-    multiply<kWidth>(narrow, patch, begin, end, band);
+HWY_INLINE void multiply(const ZmssdPatch& patch, int begin, int end, Band& band) {
+  for (int u = begin; u < end; u += 4) multiply_four<kWidth>(patch, u, band);
 }
 
 HWY_INLINE void finish(const ZmssdPatch& patch, int begin, int end, const Band& band, std::uint32_t* scores) {
@@ -218,7 +223,10 @@ void search_band(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdi
                  const WindowRow* rows, std::size_t row_count, int first, int width, std::uint32_t* scores) {
   Band band;
   band.columns = width + patch.size - 1;
-  for (auto& row : band.pixels) zero(row + band.columns, ZmssdPatch::kLanes);
+  for (std::size_t k = 0; k < std::min<std::size_t>(kRing, row_count + kMaxPatchSize); ++k) {
+    zero(band.pixels[k] + band.columns, kBehind);
+    zero(band.pairs[k] + 2 * band.columns, 2 * kBehind);
+  }
   for (std::size_t k = 0; k < row_count; scores += rows[k].count, ++k) {
     const int begin = std::max(rows[k].first - first, 0);
     const int end = std::min(rows[k].first + rows[k].count - first, width);
@@ -226,9 +234,9 @@ void search_band(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdi
     const int v = static_cast<int>(k);
     go_to_row(v, pixels + v * stride + first, stride, patch.size, band);
     if (patch.size == 8)
-      multiply_best<8>(patch, begin, end, band);
+      multiply<8>(patch, begin, end, band);
     else
-      multiply_best<16>(patch, begin, end, band);
+      multiply<16>(patch, begin, end, band);
     finish(patch, begin, end, band, scores + (first + begin - rows[k].first));
   }
 }
@@ -258,13 +266,12 @@ HWY_EXPORT(search);
 ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, int size) {
   ZmssdPatch patch;
   patch.size = size;
-  const int width = size == 8 ? 8 : kMaxPatchSize;
   for (int r = 0; r < size; ++r) {
     for (int c = 0; c < size; ++c) {
       const std::uint8_t pixel = pixels[r * stride + c];
       patch.sum += pixel;
       patch.sum_of_squares += std::uint32_t{pixel} * pixel;
-      for (int copy = c; copy < ZmssdPatch::kLanes; copy += width) patch.rows[r][copy] = pixel;
+      patch_pixel(patch, r, c) = pixel;
     }
   }
   return patch;
