@@ -8,20 +8,6 @@
 namespace waymark::kernels {
 namespace {
 
-// The plain formula for one window, with the pixels of the patch as `patch_at(row, column)`.
-template <class PatchAt>
-std::uint32_t plain_zmssd(PatchAt patch_at, const std::uint8_t* window, std::ptrdiff_t stride, int size) {
-  std::int64_t sum = 0, squares = 0;
-  for (int r = 0; r < size; ++r) {
-    for (int c = 0; c < size; ++c) {
-      const int difference = patch_at(r, c) - window[r * stride + c];
-      sum += difference;
-      squares += difference * difference;
-    }
-  }
-  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
-}
-
 // Where column c of row r lies in the pairs of a patch.
 template <class Patch>
 auto& patch_pixel(Patch& patch, int r, int c) {
@@ -46,10 +32,13 @@ namespace waymark::kernels::HWY_NAMESPACE {
 
 void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
             std::size_t row_count, std::uint32_t* scores) {
-  const auto patch_at = [&](int r, int c) { return patch_pixel(patch, r, c); };
+  std::uint8_t plain[kMaxPatchSize * kMaxPatchSize];
+  for (int r = 0; r < patch.size; ++r)
+    for (int c = 0; c < patch.size; ++c)
+      plain[r * patch.size + c] = static_cast<std::uint8_t>(patch_pixel(patch, r, c));
   for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
     for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
-      *scores++ = plain_zmssd(patch_at, pixels + u, stride, patch.size);
+      *scores++ = reference::zmssd(plain, patch.size, pixels + u, stride, patch.size);
 }
 
 #else
@@ -286,7 +275,15 @@ namespace reference {
 
 std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride, const std::uint8_t* window,
                     std::ptrdiff_t window_stride, int size) {
-  return plain_zmssd([&](int r, int c) { return patch[r * patch_stride + c]; }, window, window_stride, size);
+  std::int64_t sum = 0, squares = 0;
+  for (int r = 0; r < size; ++r) {
+    for (int c = 0; c < size; ++c) {
+      const int difference = patch[r * patch_stride + c] - window[r * window_stride + c];
+      sum += difference;
+      squares += difference * difference;
+    }
+  }
+  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
 }
 
 }  // namespace reference
