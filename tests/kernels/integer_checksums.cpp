@@ -26,7 +26,7 @@ std::vector<std::uint8_t> picture() {
     const int u = draw(kWidth - 20), v = draw(kHeight - 20), side = 2 + draw(18), grey = draw(250);
     for (int row = v; row < v + side; ++row)
       for (int column = u; column < u + side; ++column)
-        pixels[static_cast<std::size_t>(row * kWidth + column)] = static_cast<std::uint8_t>(grey + draw(6));
+        *(pixels.data() + row * kWidth + column) = static_cast<std::uint8_t>(grey + draw(6));
   }
   return pixels;
 }

@@ -127,6 +127,7 @@ HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stri
   for (; band.to < v + size; ++band.to) {
     const std::uint8_t* row = pixels + (band.to - v) * stride;
     std::int16_t* come = band.pixels[slot(band.to)];
+    // NOLINTNEXTLINE(bugprone-branch-clone): the same where vectors have eight lanes
     if (band.columns >= 16)
       widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, come);
     else

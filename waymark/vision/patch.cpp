@@ -37,7 +37,7 @@ std::optional<Patch> cut_patch(const ImageView& image, int u, int v, int size) {
   patch.size = size;
   for (int row = 0; row < size; ++row)
     std::copy_n(image.pixel(u - before_place(size), v - before_place(size) + row), size,
-                &patch.pixels[static_cast<std::size_t>(row * size)]);
+                patch.pixels.data() + row * size);
   return patch;
 }
 
@@ -46,8 +46,7 @@ std::optional<ReferencePatch> cut_reference(const ImageView& image, int u, int v
   if (!patch_fits(image, u, v, kSide)) return std::nullopt;
   ReferencePatch reference;
   for (int row = 0; row < kSide; ++row)
-    std::copy_n(image.pixel(u - kRadius, v - kRadius + row), kSide,
-                &reference.pixels[static_cast<std::size_t>(row * kSide)]);
+    std::copy_n(image.pixel(u - kRadius, v - kRadius + row), kSide, reference.pixels.data() + row * kSide);
   return reference;
 }
 
@@ -62,6 +61,7 @@ std::optional<Patch> warp_patch(const ReferencePatch& reference, const Eigen::Ma
   const ImageView then = reference.view();
   Patch patch;
   patch.size = size;
+  std::uint8_t* pixel = patch.pixels.data();
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
       const Eigen::Vector2d offset(column - before_place(size), row - before_place(size));
@@ -69,7 +69,8 @@ std::optional<Patch> warp_patch(const ReferencePatch& reference, const Eigen::Ma
       const double grey = is_smaller ? 0.25 * (grey_at(then, place + across) + grey_at(then, place - across) +
                                                grey_at(then, place + along) + grey_at(then, place - along))
                                      : grey_at(then, place);
-      patch.pixels[static_cast<std::size_t>(row * size + column)] = static_cast<std::uint8_t>(grey + 0.5);
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround() is a call
+      *pixel++ = static_cast<std::uint8_t>(grey + 0.5);
     }
   }
   return patch;

@@ -19,7 +19,7 @@ struct Patch {
   int size = 0;  ///< n, 8 to 16
 
   [[nodiscard]] std::uint8_t operator()(int column, int row) const {
-    return pixels[static_cast<std::size_t>(row * size + column)];
+    return *(pixels.data() + row * size + column);
   }
   [[nodiscard]] kernels::ZmssdPatch for_search() const {
     return kernels::make_zmssd_patch(pixels.data(), size, size);

@@ -38,7 +38,7 @@ std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch
   const double mixed = 0.25 * (c(2, 2) - c(2, 0) - c(0, 2) + c(0, 0));
   const Eigen::Matrix2d H{{c(1, 2) - 2.0 * c(1, 1) + c(1, 0), mixed},
                           {mixed, c(2, 1) - 2.0 * c(1, 1) + c(0, 1)}};
-  if (!(H(0, 0) > 0.0 && H.determinant() > 0.0)) return std::nullopt;
+  if (H(0, 0) <= 0.0 || H.determinant() <= 0.0) return std::nullopt;
   const Eigen::Matrix2d H_inverse = H.inverse();
   const Eigen::Vector2d step = -H_inverse * gradient;
   if (step.cwiseAbs().maxCoeff() > 1.0) return std::nullopt;
