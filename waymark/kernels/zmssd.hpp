@@ -13,8 +13,8 @@ struct ZmssdPatch {
   static constexpr int kLanes = 2 * kMaxPatchSize;
   static constexpr int kPairs = kMaxPatchSize / 2;
 
-  /// Rows 2 k and 2 k + 1, column by column; zeros behind the last column, and in front of the last row of an
-  /// odd number.
+  /// Two rows side by side, column by column; zeros behind the last column, and an odd number of rows begins
+  /// with a row of zeros.
   alignas(64) std::int16_t pairs[kPairs][kLanes] = {};
   int size = 0;
   std::uint32_t sum = 0;             ///< of its pixels
