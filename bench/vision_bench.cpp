@@ -15,6 +15,8 @@
 #include "waymark/io/image_file.hpp"
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"
+#include "waymark/vision/search.hpp"
+#include "waymark/vision/subpixel.hpp"
 
 #ifdef WAYMARK_WITH_OPENCV
 #include <opencv2/features2d.hpp>
@@ -143,6 +145,28 @@ void corners(benchmark::State& state, const GreyImage& image, int arc) {
   state.counters["corners"] = static_cast<double>(found);
 }
 
+// One landmark: an ellipse of 5 px standard deviation, and its peak.
+void find_landmark(benchmark::State& state, vision::MatchScore match) {
+  const ImageView image = frames().back().image;
+  vision::Search search({.match = match});
+  const vision::Patch patch = *vision::cut_patch(image, 160, 120, 16);
+  const Eigen::Matrix2d S{{25.0, 5.0}, {5.0, 25.0}};
+  for (auto _ : state) benchmark::DoNotOptimize(search.find(image, patch, {161.3, 118.6}, S));
+  state.SetItemsProcessed(state.iterations() * search.windows());
+}
+
+void find_subpixel_peak(benchmark::State& state) {
+  const ImageView image = frames().back().image;
+  const vision::Patch patch = *vision::cut_patch(image, 160, 120, 16);
+  for (auto _ : state) benchmark::DoNotOptimize(vision::find_peak(image, patch, 160, 120, 3.0));
+}
+
+void warp(benchmark::State& state) {
+  const vision::ReferencePatch reference = *vision::cut_reference(frames().back().image, 160, 120);
+  const Eigen::Matrix2d A{{0.9, 0.1}, {-0.1, 1.1}};
+  for (auto _ : state) benchmark::DoNotOptimize(vision::warp_patch(reference, A, 16));
+}
+
 #ifdef WAYMARK_WITH_OPENCV
 void corners_opencv(benchmark::State& state, const GreyImage& image) {
   cv::setNumThreads(1);
@@ -193,6 +217,10 @@ void register_searches() {
 const bool kRegistered = [] {
   register_searches();
   register_corners();
+  benchmark::RegisterBenchmark("find_landmark/map", find_landmark, vision::MatchScore::kMap);
+  benchmark::RegisterBenchmark("find_landmark/article", find_landmark, vision::MatchScore::kArticle);
+  benchmark::RegisterBenchmark("find_subpixel_peak", find_subpixel_peak);
+  benchmark::RegisterBenchmark("warp", warp);
   return true;
 }();
 

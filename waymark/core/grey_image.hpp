@@ -43,9 +43,8 @@ class GreyImage {
   std::uint8_t operator()(int u, int v) const { return pixels_[place(u, v)]; }
 
   [[nodiscard]] ImageView view() const { return {data(), width_px_, height_px_, stride()}; }
-  operator ImageView() const {
-    return view();
-  }  // NOLINT(google-explicit-constructor): an image can be looked at
+  // NOLINTNEXTLINE(google-explicit-constructor): an image can be looked at
+  operator ImageView() const { return view(); }
 
   friend bool operator==(const GreyImage&, const GreyImage&) = default;
 

@@ -96,7 +96,7 @@ class JpegDecoder {
 
   // In both functions nothing that needs destruction lives when libjpeg jumps out.
   bool read_header() {
-    if (setjmp(errors_.leave) != 0) return false;  // NOLINT(cert-err52-cpp): libjpeg's way
+    if (setjmp(errors_.leave) != 0) return false;
     jpeg_create_decompress(&jpeg_);
     jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
     jpeg_read_header(&jpeg_, TRUE);
@@ -104,7 +104,7 @@ class JpegDecoder {
   }
   /// The luminance of a JPEG file is the grey that we want.
   bool read_grey(std::uint8_t* pixels) {
-    if (setjmp(errors_.leave) != 0) return false;  // NOLINT(cert-err52-cpp): libjpeg's way
+    if (setjmp(errors_.leave) != 0) return false;
     jpeg_.out_color_space = JCS_GRAYSCALE;
     jpeg_start_decompress(&jpeg_);
     while (jpeg_.output_scanline < jpeg_.output_height) {

@@ -8,18 +8,11 @@
 namespace waymark::kernels {
 namespace {
 
-// The plain formula for one window, with the pixels of the patch as `patch_at(row, column)`.
-template <class PatchAt>
-std::uint32_t plain_zmssd(PatchAt patch_at, const std::uint8_t* window, std::ptrdiff_t stride, int size) {
-  std::int64_t sum = 0, squares = 0;
-  for (int r = 0; r < size; ++r) {
-    for (int c = 0; c < size; ++c) {
-      const int difference = patch_at(r, c) - window[r * stride + c];
-      sum += difference;
-      squares += difference * difference;
-    }
-  }
-  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
+// Where column c of row r lies in the pairs of a patch.
+template <class Patch>
+auto& patch_pixel(Patch& patch, int r, int c) {
+  const int row = r + patch.size % 2;
+  return patch.pairs[row / 2][2 * c + row % 2];
 }
 
 }  // namespace
@@ -39,10 +32,13 @@ namespace waymark::kernels::HWY_NAMESPACE {
 
 void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
             std::size_t row_count, std::uint32_t* scores) {
-  const auto patch_at = [&](int r, int c) { return patch.rows[r][c]; };
+  std::uint8_t plain[kMaxPatchSize * kMaxPatchSize];
+  for (int r = 0; r < patch.size; ++r)
+    for (int c = 0; c < patch.size; ++c)
+      plain[r * patch.size + c] = static_cast<std::uint8_t>(patch_pixel(patch, r, c));
   for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
     for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
-      *scores++ = plain_zmssd(patch_at, pixels + u, stride, patch.size);
+      *scores++ = reference::zmssd(plain, patch.size, pixels + u, stride, patch.size);
 }
 
 #else
@@ -51,20 +47,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kBand = 64;  // windows side by side
 // The columns of image below a band of windows, and what vectors read behind them.
-constexpr int kColumns = kBand + kMaxPatchSize + ZmssdPatch::kLanes;
-constexpr int kRing =
-    32;  // rows of image that are kept: the row that leaves the windows and the one that comes
+constexpr int kBehind = 32;
+constexpr int kColumns = kBand + 2 * kMaxPatchSize + kBehind;
+// Rows of image that are kept: those below the windows, the one that has just left them, and the next one.
+// Pairs are kept twice, so that those below the windows always lie one behind the other.
+constexpr int kRing = 32;
+constexpr int kPairRing = 16;
+alignas(64) constexpr std::int16_t kNone[kColumns] = {};
 
 // What the windows of a row of a band have in common. Goes down the image row by row.
 struct Band {
   alignas(64) std::int16_t pixels[kRing][kColumns];  // zero behind the last column
-  alignas(64) std::uint16_t sum[kColumns];           // of each column of pixels as high as the windows
+  alignas(
+      64) std::int16_t pairs[2 * kPairRing][2 * kColumns];  // the row above and this one, column by column
+  alignas(64) std::uint16_t sum[kColumns];                  // of each column of pixels as high as the windows
   alignas(64) std::uint32_t squares[kColumns];
   alignas(64) std::int32_t products[kColumns];  // sum d i of each window
 
-  const std::int16_t* rows[kMaxPatchSize];  // of pixels that the windows cover
+  // The first pairs that the windows cover; the next ones are two rows further on.
+  const std::int16_t* window_pairs = nullptr;
   int columns = 0;
-  int from = 0, to = 0;  // rows of image that were taken in without a gap
+  int from = 0, taken = 0;  // rows of image that were taken without a gap
+  int summed = 0;           // those of them that have been in the sums
 };
 
 template <class Value>
@@ -106,27 +110,49 @@ HWY_INLINE void exchange(const std::int16_t* come, const std::int16_t* leave, Ba
   }
 }
 
-HWY_INLINE std::int16_t* ring_row(Band& band, int v) { return band.pixels[static_cast<unsigned>(v) % kRing]; }
+HWY_INLINE void pair_up(const std::int16_t* upper, const std::int16_t* lower, int columns, std::int16_t* once,
+                        std::int16_t* again) {
+  const hn::FixedTag<std::int16_t, 8> d16;
+  for (int u = 0; u < columns; u += 8) {
+    const auto a = hn::LoadU(d16, upper + u), b = hn::LoadU(d16, lower + u);
+    for (std::int16_t* pairs : {once, again}) {
+      hn::StoreU(hn::InterleaveLower(d16, a, b), d16, pairs + 2 * u);
+      hn::StoreU(hn::InterleaveUpper(d16, a, b), d16, pairs + 2 * u + 8);
+    }
+  }
+}
 
-// Goes down to the windows whose first pixels are in row v; `pixels` is that row.
-HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stride, int size, Band& band) {
-  alignas(64) static constexpr std::int16_t kNone[kColumns] = {};
-  if (band.to <= v) {
+constexpr unsigned slot(int v) { return static_cast<unsigned>(v) % kRing; }
+
+// Widens the next row of image and pairs it with the one before.
+HWY_INLINE void take_row(const std::uint8_t* row, Band& band) {
+  std::int16_t* wide = band.pixels[slot(band.taken)];
+  // NOLINTNEXTLINE(bugprone-branch-clone): the same where vectors have eight lanes
+  if (band.columns >= 16)
+    widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, wide);
+  else
+    widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, wide);
+  const unsigned pair = static_cast<unsigned>(band.taken) % kPairRing;
+  pair_up(band.taken > band.from ? band.pixels[slot(band.taken - 1)] : kNone, wide, band.columns,
+          band.pairs[pair], band.pairs[pair + kPairRing]);
+  ++band.taken;
+}
+
+// Goes down to the windows whose first pixels are in row v; `pixels` is that row. One more row of image is
+// taken where there `is_next`: what has just been stored in parts cannot be loaded as a whole for a while.
+HWY_INLINE void go_to_row(int v, const std::uint8_t* pixels, std::ptrdiff_t stride, int size, bool is_next,
+                          Band& band) {
+  if (band.summed <= v) {
     zero(band.sum, kColumns);
     zero(band.squares, kColumns);
-    band.from = band.to = v;
+    band.from = band.summed = band.taken = v;
   }
-  for (; band.to < v + size; ++band.to) {
-    const std::uint8_t* row = pixels + (band.to - v) * stride;
-    std::int16_t* come = ring_row(band, band.to);
-    if (band.columns >= 16)
-      widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, come);
-    else
-      widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, come);
-    const int left = band.to - size;
-    exchange(come, left >= band.from ? ring_row(band, left) : kNone, band);
+  while (band.taken < v + size + (is_next ? 1 : 0)) take_row(pixels + (band.taken - v) * stride, band);
+  for (; band.summed < v + size; ++band.summed) {
+    const int left = band.summed - size;
+    exchange(band.pixels[slot(band.summed)], left >= band.from ? band.pixels[slot(left)] : kNone, band);
   }
-  for (int r = 0; r < size; ++r) band.rows[r] = ring_row(band, v + r);
+  band.window_pairs = band.pairs[static_cast<unsigned>(v + 1 - size % 2) % kPairRing];
 }
 
 // Sums of neighbouring lanes of four vectors: each block of four lanes holds that of a, b, c and d.
@@ -142,107 +168,99 @@ HWY_INLINE V sums_of_blocks(V a, V b, V c, V d) {
                  hn::BitCast(d32, hn::InterleaveUpper(d64, ab, cd)));
 }
 
-// sum d i of the windows u .. u + 3, and of those at u + kWidth, u + 2 kWidth, ... as far as a
-// vector reaches.
-template <int kWidth, class D>
-HWY_INLINE void multiply_four(D d16, const ZmssdPatch& patch, int u, Band& band) {
-  const hn::RepartitionToWide<D> d32;
-  const hn::FixedTag<std::int32_t, 4> block;
-  constexpr int kVector = static_cast<int>(hn::MaxLanes(D()));
-  constexpr int kReach = kVector < kWidth ? kWidth : kVector;
+// sum d i of the windows u .. u + 3 of patches up to kWidth pixels wide.
+template <int kWidth>
+HWY_INLINE void multiply_four(const ZmssdPatch& patch, int u, Band& band) {
+  const hn::CappedTag<std::int16_t, 2 * kWidth> d16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  constexpr int kVector = static_cast<int>(hn::MaxLanes(decltype(d16)()));
   hn::Vec<decltype(d32)> even[4], odd[4];
   for (int k = 0; k < 4; ++k) even[k] = odd[k] = hn::Zero(d32);
-  for (int r = 0; r < patch.size; ++r) {
-    const std::int16_t* pixels = band.rows[r] + u;
-    for (int part = 0; part < kReach; part += kVector) {
-      const auto d = hn::Load(d16, &patch.rows[r][part]);
+  const std::int16_t* pixels = band.window_pairs + 2 * u;
+  for (int pair = 0; 2 * pair < patch.size; ++pair, pixels += 2 * (2 * kColumns)) {
+    for (int part = 0; part < 2 * kWidth; part += kVector) {
+      const auto d = hn::Load(d16, &patch.pairs[pair][part]);
       for (int k = 0; k < 4; ++k) {
-        const auto i = hn::LoadU(d16, pixels + k + part);
+        const auto i = hn::LoadU(d16, pixels + 2 * k + part);
         even[k] = hn::ReorderWidenMulAccumulate(d32, d, i, even[k], odd[k]);
       }
     }
   }
   for (int k = 0; k < 4; ++k) even[k] = hn::Add(even[k], odd[k]);
-  alignas(64) std::int32_t sums[16];
+  alignas(64) std::int32_t sums[kVector / 2];
   hn::Store(sums_of_blocks(even[0], even[1], even[2], even[3]), d32, sums);
-  for (int w = 0; w < kReach; w += kWidth) {
-    constexpr int kBlocks = std::min(kWidth, kVector) / 8;
-    auto sum = hn::Load(block, sums + w / 2);
-    if constexpr (kBlocks == 2) sum = hn::Add(sum, hn::Load(block, sums + w / 2 + 4));
-    hn::StoreU(sum, block, band.products + u + w);
-  }
+  const hn::FixedTag<std::int32_t, 4> block;
+  auto sum = hn::Load(block, sums);
+  for (int k = 4; k < kVector / 2; k += 4) sum = hn::Add(sum, hn::Load(block, sums + k));
+  hn::StoreU(sum, block, band.products + u);
 }
 
-// ... of the windows begin <= u < end.
-template <int kWidth, class D>
-HWY_INLINE void multiply(D d16, const ZmssdPatch& patch, int begin, int end, Band& band) {
-  constexpr int kReach = std::max(static_cast<int>(hn::MaxLanes(D())), kWidth);
-  for (int from = begin; from < end; from += kReach)
-    for (int u = from; u < std::min(from + kWidth, end); u += 4) multiply_four<kWidth>(d16, patch, u, band);
-}
-
-// A long vector serves several windows, where there are enough of them.
 template <int kWidth>
-HWY_INLINE void multiply_best(const ZmssdPatch& patch, int begin, int end, Band& band) {
-  const hn::CappedTag<std::int16_t, ZmssdPatch::kLanes> wide;
-  const hn::CappedTag<std::int16_t, kWidth> narrow;
-  if (end - begin > 2 * kWidth)
-    multiply<kWidth>(wide, patch, begin, end, band);
-  else
-    multiply<kWidth>(narrow, patch, begin, end, band);
+HWY_INLINE void multiply(const ZmssdPatch& patch, int begin, int end, Band& band) {
+  for (int u = begin; u < end; u += 4) multiply_four<kWidth>(patch, u, band);
 }
 
+// The scores of the windows begin <= u < end.
 HWY_INLINE void finish(const ZmssdPatch& patch, int begin, int end, const Band& band, std::uint32_t* scores) {
-  const hn::CappedTag<std::uint32_t, 8> d32;
-  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const hn::CappedTag<std::uint16_t, 16> d16;
+  const hn::RepartitionToWide<decltype(d16)> d32;
+  const hn::RebindToSigned<decltype(d32)> signed32;
+  const int half = static_cast<int>(hn::Lanes(d32));
   const auto n = hn::Set(d32, static_cast<std::uint32_t>(patch.size * patch.size));
   const auto patch_sum = hn::Set(d32, patch.sum), patch_squares = hn::Set(d32, patch.sum_of_squares);
   alignas(64) std::uint32_t all[kBand];
-  for (int u = begin; u < end; u += static_cast<int>(hn::Lanes(d32))) {
-    auto sum = hn::Zero(d16);
-    auto squares = hn::Zero(d32);
-    for (int k = 0; k < patch.size; ++k) {
-      sum = hn::Add(sum, hn::LoadU(d16, band.sum + u + k));  // of 256 pixels fits
-      squares = hn::Add(squares, hn::LoadU(d32, band.squares + u + k));
-    }
-    const auto products = hn::BitCast(d32, hn::LoadU(hn::RebindToSigned<decltype(d32)>(), band.products + u));
+  const auto finish_half = [&](auto sum, auto squares, int u) HWY_ATTR {
+    const auto products = hn::BitCast(d32, hn::LoadU(signed32, band.products + u));
     const auto ssd = hn::Sub(hn::Add(patch_squares, squares), hn::Add(products, products));
     const auto shift = hn::Sub(patch_sum, hn::PromoteTo(d32, sum));
     hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + (u - begin));
+  };
+  for (int u = begin; u < end; u += 2 * half) {
+    auto sum = hn::Zero(d16);
+    auto squares_low = hn::Zero(d32), squares_high = hn::Zero(d32);
+    for (int k = u; k < u + patch.size; ++k) {
+      sum = hn::Add(sum, hn::LoadU(d16, band.sum + k));  // of 256 pixels fits
+      squares_low = hn::Add(squares_low, hn::LoadU(d32, band.squares + k));
+      squares_high = hn::Add(squares_high, hn::LoadU(d32, band.squares + k + half));
+    }
+    finish_half(hn::LowerHalf(sum), squares_low, u);
+    finish_half(hn::UpperHalf(hn::Half<decltype(d16)>(), sum), squares_high, u + half);
   }
   std::copy_n(all, end - begin, scores);
 }
 
 // The windows of all rows in the columns first to first + width - 1.
 void search_band(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
-                 const WindowRow* rows, std::size_t row_count, int first, int width, std::uint32_t* scores) {
+                 const WindowRow* rows, int last_row, int first, int width, std::uint32_t* scores) {
   Band band;
   band.columns = width + patch.size - 1;
-  for (auto& row : band.pixels) zero(row + band.columns, ZmssdPatch::kLanes);
-  for (std::size_t k = 0; k < row_count; scores += rows[k].count, ++k) {
-    const int begin = std::max(rows[k].first - first, 0);
-    const int end = std::min(rows[k].first + rows[k].count - first, width);
+  for (auto& row : band.pixels) zero(row + band.columns, kBehind);
+  for (auto& row : band.pairs) zero(row + 2 * band.columns, 2 * kBehind);
+  for (int v = 0; v <= last_row; scores += rows[v].count, ++v) {
+    const int begin = std::max(rows[v].first - first, 0);
+    const int end = std::min(rows[v].first + rows[v].count - first, width);
     if (begin >= end) continue;
-    const int v = static_cast<int>(k);
-    go_to_row(v, pixels + v * stride + first, stride, patch.size, band);
+    go_to_row(v, pixels + v * stride + first, stride, patch.size, v < last_row, band);
     if (patch.size == 8)
-      multiply_best<8>(patch, begin, end, band);
+      multiply<8>(patch, begin, end, band);
     else
-      multiply_best<16>(patch, begin, end, band);
-    finish(patch, begin, end, band, scores + (first + begin - rows[k].first));
+      multiply<16>(patch, begin, end, band);
+    finish(patch, begin, end, band, scores + (first + begin - rows[v].first));
   }
 }
 
 void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
             std::size_t row_count, std::uint32_t* scores) {
   int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+  int last_row = -1;
   for (std::size_t k = 0; k < row_count; ++k) {
     if (rows[k].count <= 0) continue;
+    last_row = static_cast<int>(k);
     first = std::min(first, rows[k].first);
     last = std::max(last, rows[k].first + rows[k].count);
   }
   for (; first < last; first += kBand)
-    search_band(patch, pixels, stride, rows, row_count, first, std::min(last - first, kBand), scores);
+    search_band(patch, pixels, stride, rows, last_row, first, std::min(last - first, kBand), scores);
 }
 
 #endif
@@ -258,13 +276,12 @@ HWY_EXPORT(search);
 ZmssdPatch make_zmssd_patch(const std::uint8_t* pixels, std::ptrdiff_t stride, int size) {
   ZmssdPatch patch;
   patch.size = size;
-  const int width = size == 8 ? 8 : kMaxPatchSize;
   for (int r = 0; r < size; ++r) {
     for (int c = 0; c < size; ++c) {
       const std::uint8_t pixel = pixels[r * stride + c];
       patch.sum += pixel;
       patch.sum_of_squares += std::uint32_t{pixel} * pixel;
-      for (int copy = c; copy < ZmssdPatch::kLanes; copy += width) patch.rows[r][copy] = pixel;
+      patch_pixel(patch, r, c) = pixel;
     }
   }
   return patch;
@@ -279,7 +296,15 @@ namespace reference {
 
 std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride, const std::uint8_t* window,
                     std::ptrdiff_t window_stride, int size) {
-  return plain_zmssd([&](int r, int c) { return patch[r * patch_stride + c]; }, window, window_stride, size);
+  std::int64_t sum = 0, squares = 0;
+  for (int r = 0; r < size; ++r) {
+    for (int c = 0; c < size; ++c) {
+      const int difference = patch[r * patch_stride + c] - window[r * window_stride + c];
+      sum += difference;
+      squares += difference * difference;
+    }
+  }
+  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
 }
 
 }  // namespace reference

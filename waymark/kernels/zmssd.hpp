@@ -8,12 +8,14 @@ namespace waymark::kernels {
 inline constexpr int kMinPatchSize = 8;
 inline constexpr int kMaxPatchSize = 16;
 
-/// A square patch of size x size pixels as zmssd_row() wants it.
+/// A square patch of size x size pixels as zmssd_search() wants it.
 struct ZmssdPatch {
-  static constexpr int kLanes = 32;
+  static constexpr int kLanes = 2 * kMaxPatchSize;
+  static constexpr int kPairs = kMaxPatchSize / 2;
 
-  /// Row by row, each repeated to the end: every 8 lanes at size 8, else every 16 with zeros behind the row.
-  alignas(64) std::int16_t rows[kMaxPatchSize][kLanes] = {};
+  /// Two rows side by side, column by column; zeros behind the last column, and an odd number of rows begins
+  /// with a row of zeros.
+  alignas(64) std::int16_t pairs[kPairs][kLanes] = {};
   int size = 0;
   std::uint32_t sum = 0;             ///< of its pixels
   std::uint32_t sum_of_squares = 0;  ///< of its pixels

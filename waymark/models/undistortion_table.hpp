@@ -22,7 +22,7 @@ class UndistortionTable {
 
  private:
   [[nodiscard]] const Eigen::Vector2d& node(int column, int row) const {
-    return nodes_[static_cast<std::size_t>(row * columns_ + column)];
+    return *(nodes_.data() + row * columns_ + column);
   }
 
   int columns_, rows_;

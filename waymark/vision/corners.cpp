@@ -72,7 +72,7 @@ void CornerDetector::score_row(const ImageView& image, const PixelRect& cell, in
   row.any =
       kernels::fast_scores(image.pixel(scored.u, v), image.stride, static_cast<std::size_t>(scored.width_px),
                            static_cast<std::uint8_t>(options_.threshold), options_.arc,
-                           &row.scores[static_cast<std::size_t>(scored.u - cell.u + 1)]);
+                           row.scores.data() + (scored.u - cell.u + 1));
 }
 
 void CornerDetector::add_largest(const PixelRect& cell, int v) {

@@ -41,8 +41,8 @@ class CornerDetector {
   /// The corners of the whole image, row by row. Valid until the next call; the detector allocates for its
   /// largest image only.
   const std::vector<Corner>& detect(const ImageView& image);
-  /// Those of the whole image that lie in `cell`, without looking at the rest.
-  const std::vector<Corner>& detect(const ImageView& image, const PixelRect& cell);
+  /// Those of the whole image that lie in `wanted`, without looking at the rest.
+  const std::vector<Corner>& detect(const ImageView& image, const PixelRect& wanted);
 
  private:
   /// Scores of one row of the cell and of one pixel beside it at both ends.

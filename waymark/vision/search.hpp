@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "waymark/core/config.hpp"
+#include "waymark/core/grey_image.hpp"
+#include "waymark/kernels/zmssd.hpp"
+#include "waymark/vision/corners.hpp"
+#include "waymark/vision/patch.hpp"
+
+namespace waymark::vision {
+
+/// What a match makes small, for z = ZMSSD, d = pixel - predicted and innovation covariance S. kMap is the
+/// negative logarithm of the posterior under grey noise of `grey_sigma`; kArticle is as printed (Vincke et
+/// al. 2012), read so that it favours the middle of the ellipse.
+enum class MatchScore {
+  kMap,      ///< z / (4 sigma^2) + d^T S^-1 d / 2
+  kArticle,  ///< z / exp(-d^T S^-1 d / 2)
+};
+
+struct SearchOptions {
+  double probability = 0.99;  ///< part of the true places that lie inside the search ellipse
+  int max_windows = 2500;     ///< of one search; larger ellipses are searched at corners only
+  MatchScore match = MatchScore::kMap;
+  double grey_sigma = 3.0;    ///< noise of a pixel, grey levels
+  double accept_ratio = 4.0;  ///< of the ZMSSD that the right place is expected to have
+  CornerOptions corners{.threshold = 15, .arc = 9};  ///< of the search at corners
+};
+
+void describe(Schema& schema, SearchOptions& options);
+
+/// All pixels whose d^T S^-1 d is at most `gate`, and which are at least `before` and `from` pixels inside
+/// the image: row `first_row + k` from column rows[k].first on. No bounding box: each row is the solution of
+/// a quadratic equation.
+struct EllipseRows {
+  int first_row = 0;
+  std::vector<kernels::WindowRow> rows;
+  std::int64_t windows = 0;
+};
+void find_ellipse_rows(const ImageView& image, const Eigen::Vector2d& centre, const Eigen::Matrix2d& S,
+                       double gate, int patch_size, EllipseRows& ellipse);
+
+/// The ZMSSD that two pictures of one place are expected to have: pixel noise in both, 2 sigma^2 (n - 1), and
+/// the place being up to half a pixel beside the window, sum |gradient|^2 / 12 per axis.
+[[nodiscard]] double expected_zmssd(const Patch& patch, double grey_sigma);
+
+struct Match {
+  int u = 0;
+  int v = 0;
+  double zmssd = 0.0;
+  double distance2 = 0.0;  ///< d^T S^-1 d
+  double score = 0.0;      ///< as options say
+  bool accepted = false;   ///< similar enough to be the landmark
+};
+
+/// Looks for patches in an image where a filter expects them. Holds buffers, so one per thread; allocates for
+/// its largest search only.
+class Search {
+ public:
+  explicit Search(const SearchOptions& options = {});
+
+  /// The best window inside the ellipse of `S` (px^2) around `predicted` (px); nothing where none fits into
+  /// the image, or S is no covariance. Cost: windows() times some nanoseconds.
+  [[nodiscard]] std::optional<Match> find(const ImageView& image, const Patch& patch,
+                                          const Eigen::Vector2d& predicted, const Eigen::Matrix2d& S);
+
+  /// Windows that the last find() scored.
+  [[nodiscard]] std::int64_t windows() const { return windows_; }
+
+ private:
+  struct Task;
+  void score_ellipse(const Task& task, std::optional<Match>& best);
+  void score_corners(const Task& task, std::optional<Match>& best);
+  void score_rows(const Task& task, int first_row, const kernels::WindowRow* rows, std::size_t row_count,
+                  std::optional<Match>& best);
+
+  SearchOptions options_;
+  double gate_;
+  CornerDetector detector_;
+  EllipseRows ellipse_;
+  std::vector<std::uint32_t> scores_;
+  std::vector<Corner> strongest_;
+  std::int64_t windows_ = 0;
+};
+
+}  // namespace waymark::vision

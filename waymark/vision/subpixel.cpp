@@ -1,0 +1,56 @@
+#include "waymark/vision/subpixel.hpp"
+
+#include <array>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace waymark::vision {
+namespace {
+
+using Scores = Eigen::Matrix3d;  ///< ZMSSD at (row, column) around the place
+
+Scores scores_around(const ImageView& image, const Patch& patch, int u, int v) {
+  const std::array<kernels::WindowRow, 3> rows{kernels::WindowRow{0, 3}, {0, 3}, {0, 3}};
+  std::array<std::uint32_t, 9> scores{};
+  const int before = before_place(patch.size) + 1;
+  kernels::zmssd_search(patch.for_search(), image.pixel(u - before, v - before), image.stride, rows.data(),
+                        rows.size(), scores.data());
+  Scores c;
+  for (int k = 0; k < 9; ++k) c(k / 3, k % 3) = scores[static_cast<std::size_t>(k)];
+  return c / (patch.size * patch.size);
+}
+
+/// With eigenvalues of at least `least`.
+Eigen::Matrix2d floored(const Eigen::Matrix2d& R, double least) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(R);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch, int u, int v,
+                                      double grey_sigma) {
+  if (!patch_fits(image, u, v, patch.size, 1)) return std::nullopt;
+  const Scores c = scores_around(image, patch, u, v);
+  const Eigen::Vector2d gradient(0.5 * (c(1, 2) - c(1, 0)), 0.5 * (c(2, 1) - c(0, 1)));
+  const double mixed = 0.25 * (c(2, 2) - c(2, 0) - c(0, 2) + c(0, 0));
+  const Eigen::Matrix2d H{{c(1, 2) - 2.0 * c(1, 1) + c(1, 0), mixed},
+                          {mixed, c(2, 1) - 2.0 * c(1, 1) + c(0, 1)}};
+  if (H(0, 0) <= 0.0 || H.determinant() <= 0.0) return std::nullopt;
+  const Eigen::Matrix2d H_inverse = H.inverse();
+  const Eigen::Vector2d step = -H_inverse * gradient;
+  if (step.cwiseAbs().maxCoeff() > 1.0) return std::nullopt;
+  // Noise against texture, and the noise of one picture against that of the other.
+  const double variance = grey_sigma * grey_sigma, pixels = patch.size * patch.size;
+  const Eigen::Matrix2d R =
+      4.0 * variance * H_inverse + 2.0 * pixels * variance * variance * H_inverse * H_inverse;
+  return SubpixelPeak{Eigen::Vector2d(u, v) + step, floored(R, kLeastPixelSigma * kLeastPixelSigma)};
+}
+
+Eigen::Matrix2d whole_pixel_covariance() {
+  return Eigen::Matrix2d::Identity() * (1.0 / 12.0 + kLeastPixelSigma * kLeastPixelSigma);
+}
+
+}  // namespace waymark::vision

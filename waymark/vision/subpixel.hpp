@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "waymark/core/grey_image.hpp"
+#include "waymark/vision/patch.hpp"
+
+namespace waymark::vision {
+
+struct SubpixelPeak {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix2d R;  ///< its covariance, px^2
+};
+
+/// No place is claimed to be known better than this.
+inline constexpr double kLeastPixelSigma = 0.1;
+
+/// The bottom of the paraboloid through the ZMSSD of the window at (u, v) and its eight neighbours, and how
+/// well it is known: the curvature of the ZMSSD is 2 sum grad grad^T, so that two pictures with grey noise
+/// sigma leave R = 2 sigma^2 (sum grad grad^T)^-1 = 4 sigma^2 H^-1, and 2 n sigma^4 H^-2 more where texture
+/// is as weak as noise; at least kLeastPixelSigma in every direction. Nothing where a neighbour leaves the
+/// image, or the place is no minimum within a pixel: an edge, which fixes one direction only, or the border
+/// of the search.
+[[nodiscard]] std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch, int u, int v,
+                                                    double grey_sigma);
+
+/// The covariance of a place that is known to the whole pixel only.
+[[nodiscard]] Eigen::Matrix2d whole_pixel_covariance();
+
+}  // namespace waymark::vision
