@@ -104,7 +104,7 @@ TEST(ChooseAncestors, TakesAsManyAsAskedFor) {
       for (std::size_t i = 0; i < after; ++i) {
         const auto ancestor = static_cast<std::size_t>(ancestors[i]);
         ++offspring.at(ancestor);
-        if (ancestor < after) EXPECT_EQ(ancestors[ancestor], ancestors[i]);
+        EXPECT_EQ(ancestors[ancestor < after ? ancestor : i], ancestors[i]);
       }
       for (std::size_t i = 0; i < before; ++i) {
         const double expected = static_cast<double>(after) * weights[i];
