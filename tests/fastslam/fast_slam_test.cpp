@@ -541,6 +541,36 @@ TEST(FastSlam, WhatASensorDoesNotReportTellsWhereLandmarksAre) {
   EXPECT_LT(mean_error_m(0.95), 0.85 * mean_error_m(0.0));
 }
 
+/// Mean error of a landmark on a ring after twelve steps, if it is missed at some of them.
+double error_m_when_missing(std::initializer_list<int> missed) {
+  constexpr std::uint64_t kRuns = 20;
+  double error_m = 0.0;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    LandmarkSensor sensor = world.sensor();
+    sensor.field_of_view_deg = 350.0;
+    sensor.detection_probability = 0.95;  // gone after three scans
+    FastSlam filter(with_particles(100), {}, sensor, seed);
+    for (int i = 0; i < 12; ++i) {
+      filter.predict(world.move());
+      auto scan = keep(Seen::kRange, world.look());
+      if (std::ranges::count(missed, i) > 0) scan.erase(scan.begin());
+      filter.correct(scan);
+    }
+    for (const auto& landmark : filter.snapshot().landmarks)
+      if (landmark.id.number == 0)
+        error_m += (landmark.position_m.head<2>() - world.landmarks()[0]).norm() / kRuns;
+  }
+  return error_m;
+}
+
+/// Seen again at the very scan at which it would have gone, it has not gone by an edge.
+TEST(FastSlam, ALandmarkThatComesBackInTimeHasNotLeftTheView) {
+  const double seen_m = error_m_when_missing({});
+  const double missed_m = error_m_when_missing({9, 10});
+  EXPECT_LT(missed_m, 1.2 * seen_m);
+}
+
 TEST(FastSlam, OptionsAreDescribedWithTheirDefaults) {
   FastSlamOptions options;
   Schema schema;
