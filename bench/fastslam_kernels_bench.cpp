@@ -1,6 +1,7 @@
 // The kernels of a FastSLAM step, per particle: items are particles, or particle-landmarks where a landmark
 // is seen.
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -26,8 +27,11 @@ class Block {
     for (std::size_t k = 0; k < modes; ++k) modes_.push_back({gaussian(), column()});
     sighting.seen = {kind, 5.0F, 0.8F, 0.6F, 0.01F, 0.0F, 0.001F};
     sighting.landmark = {form, 0.0F, 0.0F, column(), column(), modes_.data(), modes};
-    place_landmark(sighting, {0.5F, 0.1F, 0.2F, 0.01F}, poses, range);
-    fill_increments({0.1F, 0.0F, 0.01F, 1e-4F, 0.0F, 0.0F, 1e-4F, 0.0F, 1e-4F}, increments, kCount);
+    FirstGuess guess;
+    for (std::size_t k = 0; k < modes; ++k)
+      guess.modes[k] = {0.2F + 0.1F * static_cast<float>(k), 0.01F, -std::log(static_cast<float>(modes))};
+    place_landmark(sighting, guess, poses, range);
+    fill_increments(increment, increments, kCount);
   }
 
   float* column() { return columns_.emplace_back(kCount).data(); }
@@ -38,6 +42,7 @@ class Block {
   std::vector<LandmarkMode> modes_;
 
  public:
+  Increment increment{0.1F, 0.0F, 0.01F, 1e-4F, 0.0F, 0.0F, 1e-4F, 0.0F, 1e-4F};
   PoseColumns poses{column(), column(), column(), column()};
   IncrementColumns increments{column(), column(), column(), column(), column(),
                               column(), column(), column(), column()};
@@ -70,8 +75,8 @@ void update_plain(benchmark::State& state) {
 void condition(benchmark::State& state, LandmarkForm form, SightingKind kind) {
   Block block(form, kind);
   for (auto _ : state)
-    condition_increments(block.sighting, block.poses, 1.0, block.increments, block.log_weight.data(),
-                         block.range);
+    condition_increments(block.sighting, block.increment, block.poses, 1.0, block.increments,
+                         block.log_weight.data(), block.range);
   count_items(state);
 }
 
@@ -97,8 +102,8 @@ void draw(benchmark::State& state) {
   Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
   const MovingPoses world{block.x_m.data(), block.y_m.data(), block.theta_rad.data()};
   for (auto _ : state)
-    draw_poses(block.increments, block.normals[0], block.normals[1], block.normals[2], block.poses, world,
-               kCount);
+    draw_poses(block.increments, block.increment, block.normals[0], block.normals[1], block.normals[2],
+               block.poses, world, kCount);
   count_items(state);
 }
 

@@ -1,6 +1,7 @@
 #include "waymark/fastslam/ensemble_move.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -48,17 +49,26 @@ class EnsembleMoveTest : public testing::Test {
     m.aa[i] = m.bb[i] = 1e-4F;
   }
 
-  void see(float range_m, double noise) {
+  /// A range to landmark 0, with this noise in each particle.
+  void see(float range_m, double noise, double news = 1.0) {
     const kernels::Sighting sighting{{SightingKind::kRange, range_m}, {}, store_.view(0, origin_m_)};
-    move_.take_in(sighting, false, noise, {}, origin_m_, particles_, store_);
+    const double spread = robot_x().variance * kCount / (kCount - 1.0);
+    move_.take_in(sighting, false, spread + noise, news, {}, origin_m_, particles_, store_);
   }
 
+  /// Over the particles that weigh anything.
   template <class Value>
   [[nodiscard]] Moments moments(const Value& value) const {
-    Moments m;
-    for (int i = 0; i < kCount; ++i) m.mean += value(i) / kCount;
-    for (int i = 0; i < kCount; ++i) m.variance += std::pow(value(i) - m.mean, 2) / kCount;
-    return m;
+    const auto mean_over = [&](const auto& term) {
+      double sum = 0.0;
+      for (int i = 0; i < kCount; ++i) {
+        const double w = particles_.weights()[static_cast<std::size_t>(i)];
+        if (w > 0.0) sum += w * term(i);
+      }
+      return sum;
+    };
+    const double mean = mean_over(value);
+    return {mean, mean_over([&](int i) { return std::pow(value(i) - mean, 2); })};
   }
   [[nodiscard]] Moments robot_x() const {
     return moments([this](int i) { return particles_.pose(i).x_m - kWorld; });
@@ -82,6 +92,14 @@ TEST_F(EnsembleMoveTest, MovesMeansAsTheKalmanFilterDoes) {
   const double gain = robot.variance / (robot.variance + kNoise);
   EXPECT_NEAR(robot_x().mean, robot.mean + gain * (0.4 - robot.mean), 1e-3);
   EXPECT_NEAR(landmark_x(1).mean, landmark.mean + 0.5 * gain * (0.4 - robot.mean), 1e-3);
+}
+
+TEST_F(EnsembleMoveTest, PartOfTheNewsIsASightingOfMoreNoise) {
+  const Moments robot = robot_x();
+  constexpr double kNoise = 0.04;
+  see(4.6F, kNoise, 0.25);
+  const double gain = robot.variance / (robot.variance + kNoise / 0.25);
+  EXPECT_NEAR(robot_x().mean, robot.mean + gain * (0.4 - robot.mean), 1e-3);
 }
 
 TEST_F(EnsembleMoveTest, LeavesTheSpreadOfHalfTheGain) {
@@ -109,6 +127,37 @@ TEST_F(EnsembleMoveTest, CarriesAnchorsAlong) {
   EXPECT_FLOAT_EQ(view.modes->gaussian.a[7], 0.1F);
 }
 
+/// A hypothesis that a particle has dropped is what is left of memory.
+TEST_F(EnsembleMoveTest, DroppedHypothesesDoNotSpreadToOthers) {
+  store_.add(LandmarkForm::kRing, origin_m_, 2);
+  const auto view = store_.view(4, origin_m_);
+  for (int i = 0; i < kCount; ++i) {
+    const double x = particles_.pose(i).x_m - kWorld;
+    view.anchor_x[i] = static_cast<float>(x);
+    view.anchor_y[i] = 0.0F;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const bool dropped = i % 4 == static_cast<int>(k);  // the first particle among them
+      const float garbage =
+          i % 8 < 4 ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
+      view.modes[k].gaussian.a[i] = dropped ? garbage : static_cast<float>(0.1 * x);
+      view.modes[k].log_weight[i] = dropped ? kernels::kDeadMode : std::log(0.5F);
+    }
+  }
+  const Moments robot = robot_x();
+  see(4.6F, 0.04);
+  for (std::size_t k = 0; k < 2; ++k) {
+    double mean = 0.0;
+    for (int i = 0; i < kCount; ++i) {
+      if (i % 4 == static_cast<int>(k)) continue;
+      ASSERT_TRUE(std::isfinite(view.modes[k].gaussian.a[i])) << i;
+      mean += static_cast<double>(view.modes[k].gaussian.a[i]) / (0.75 * kCount);
+    }
+    // Those who have it show how it varies, the others do not vary: three quarters of 0.1 times the robots'.
+    EXPECT_NEAR(mean - 0.1 * robot.mean, 0.075 * (robot_x().mean - robot.mean), 3e-3) << k;
+  }
+  EXPECT_TRUE(std::isfinite(robot_x().mean));
+}
+
 TEST_F(EnsembleMoveTest, DoesNothingWithoutParticlesToCompare) {
   for (int i = 3; i < kCount; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 0.0;
   for (int i = 0; i < 3; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 1.0 / 3.0;
@@ -122,7 +171,7 @@ TEST_F(EnsembleMoveTest, DeadParticlesDoNotSpoilIt) {
   for (std::size_t i = 0; i < kCount; ++i) weights[i] = i % 2 == 0 ? 2.0 / kCount : 0.0;
   for (int i = 1; i < kCount; i += 2) particles_.set_pose(i, {std::nan(""), 0.0, 0.0});
   see(4.6F, 1e-4);
-  for (int i = 0; i < kCount; i += 2) EXPECT_NEAR(particles_.pose(i).x_m - kWorld, 0.4, 0.6);
+  EXPECT_NEAR(robot_x().mean, 0.4, 0.01);
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include "waymark/fastslam/fast_slam.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +39,36 @@ void drive(FastSlam& filter, CircleWorld& world, int steps) {
   }
 }
 
+/// What is left of a sighting by range and bearing.
+enum class Seen { kRangeAndBearing, kRange, kBearing };
+
+Observation keep(Seen seen, Observation observation) {
+  const auto z = std::get<RangeBearing>(observation.value);
+  if (seen == Seen::kRangeAndBearing) return observation;
+  const Eigen::Vector2d variances = observation.covariance.value_or(Eigen::Matrix2d::Zero()).diagonal();
+  const Eigen::Vector2d kept(seen == Seen::kRange ? variances[0] : variances[1], 0.0);
+  const Measurement value = seen == Seen::kRange ? Measurement(Range{z.range_m}) : Bearing{z.bearing_rad};
+  return {observation.id, value, Eigen::Matrix2d(kept.asDiagonal())};
+}
+
+std::vector<Observation> keep(Seen seen, std::vector<Observation> scan) {
+  for (Observation& observation : scan) observation = keep(seen, observation);
+  return scan;
+}
+
+void drive(FastSlam& filter, CircleWorld& world, int steps, Seen seen) {
+  for (int i = 0; i < steps; ++i) {
+    filter.predict(world.move());
+    filter.correct(keep(seen, world.look()));
+  }
+}
+
+std::vector<Pose2> poses_of(const FastSlam& filter) {
+  std::vector<Pose2> poses;
+  for (int i = 0; i < filter.particles().count(); ++i) poses.push_back(filter.particles().pose(i));
+  return poses;
+}
+
 double position_error_m(const Filter& filter, const CircleWorld& world) {
   return (filter.pose().T_world_robot.position() - world.truth().position()).norm();
 }
@@ -48,32 +82,42 @@ double dead_reckoning_error_m(std::uint64_t seed, int steps) {
 }
 
 /// N_eff after a drive in which one landmark is seen at the start and at the end, or all the time.
-double effective_after_drive(std::uint64_t seed, bool watching) {
+double effective_after_drive(std::uint64_t seed, bool watching, int steps, double evidence_way_m) {
   test::CircleWorld world(seed);
   FastSlamOptions options = with_particles(50);
   options.resample_below = 0.0;
   options.temper_below = 0.0;
   options.move_above = 1e9;
+  options.evidence_way_m = evidence_way_m;
   options.proposal = ProposalKind::kMotion;
   FastSlam filter(options, {}, world.sensor(), seed);
   const Observation first = world.sight(0);
   filter.correct({&first, 1});
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
     const Observation again = world.sight(0);
-    if (watching || i == 99) filter.correct({&again, 1});
+    if (watching || i == steps - 1) filter.correct({&again, 1});
   }
   return fastslam::effective_particles(filter.particles().weights());
 }
 
-TEST(FastSlam, ALandmarkUnderWatchHardlyWeighsParticlesAndOneThatComesBackDoes) {
-  double watching = 0.0;
-  double returning = 0.0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    watching += effective_after_drive(seed, true);
-    returning += effective_after_drive(seed, false);
-  }
-  EXPECT_GT(watching, 1.5 * returning);
+double mean_effective_after_drive(bool watching, int steps, double evidence_way_m) {
+  constexpr int kRuns = 20;
+  double mean = 0.0;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed)
+    mean += effective_after_drive(seed, watching, steps, evidence_way_m) / kRuns;
+  return mean;
+}
+
+/// Weights fall with the way, not with the number of frames: 20 steps are 2 m.
+TEST(FastSlam, ALandmarkUnderWatchWeighsParticlesByTheWayNotByEachFrame) {
+  EXPECT_GT(mean_effective_after_drive(true, 20, 1.0), 5.0 * mean_effective_after_drive(true, 20, 0.0));
+}
+
+TEST(FastSlam, ALandmarkThatComesBackAfterALongWayWeighsParticlesInFull) {
+  const double in_full = mean_effective_after_drive(false, 100, 0.0);
+  EXPECT_LT(in_full, 25.0);  // of 50
+  EXPECT_NEAR(mean_effective_after_drive(false, 100, 1.0), in_full, 0.01 * in_full);
 }
 
 TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
@@ -96,23 +140,6 @@ TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
   EXPECT_LT(error_m, 0.15);
   EXPECT_LT(landmark_error_m, 0.15);
   EXPECT_GT(blind_m, 3.0 * error_m);
-}
-
-TEST(FastSlam, SameSeedSameBitsOnAnyNumberOfThreads) {
-  const auto final_map = [](std::uint64_t seed, int threads) {
-    CircleWorld world(1);
-    FastSlam filter(with_particles(700), {}, world.sensor(), seed, threads);
-    drive(filter, world, 60);
-    EXPECT_GT(filter.resamplings(), 0);
-    return filter.save();
-  };
-  const MapState one = final_map(5, 1);
-  const MapState two = final_map(5, 2);
-  const MapState other_seed = final_map(6, 1);
-  EXPECT_EQ(one.T_world_robot, two.T_world_robot);
-  EXPECT_EQ(one.landmarks, two.landmarks);
-  EXPECT_EQ(one.covariance, two.covariance);
-  EXPECT_NE(one.T_world_robot, other_seed.T_world_robot);
 }
 
 TEST(FastSlam, AddsEachLandmarkOnceAndCountsItsSightings) {
@@ -186,24 +213,6 @@ TEST(FastSlam, ALongBlindDriveBendsTheCloudAsManySmallStepsDo) {
     mean_x_m += 0.1 * std::exp(-0.5 * 0.0012 * i);  // E cos of a Gaussian heading
   ASSERT_LT(mean_x_m, 27.6);
   EXPECT_NEAR(filter.pose().T_world_robot.x_m, mean_x_m, 0.2);
-}
-
-TEST(FastSlam, AStandingRobotIsNeitherMovedNorResampled) {
-  CircleWorld world(4);
-  FastSlamOptions options;
-  options.evidence_way_m = 0.0;  // every sighting counts, so that there is something to resample
-  FastSlam filter(options, {}, world.sensor(), 1);
-  drive(filter, world, 20);
-  const auto resamplings = filter.resamplings();
-  const double x_m = filter.particles().pose(7).x_m;
-  for (int i = 0; i < 200; ++i) {
-    filter.predict({});
-    filter.correct(world.look());
-  }
-  EXPECT_EQ(filter.resamplings(), resamplings);
-  EXPECT_EQ(filter.particles().pose(7).x_m, x_m);
-  drive(filter, world, 20);
-  EXPECT_GT(filter.resamplings(), resamplings);
 }
 
 TEST(FastSlam, RefusesWhatItCannotUseAndSaysWhy) {
@@ -318,6 +327,30 @@ TEST(FastSlam, AnAbsurdObservationThatIsNotGatedLeavesTheSetAlive) {
   EXPECT_NEAR(total, 1.0, 1e-9);
 }
 
+/// Where the gate lets all pass: what no float can tell is not used, what one can just tell does no harm.
+TEST(FastSlam, RecoversFromLikelihoodsThatNoParticleCanHave) {
+  for (const ProposalKind proposal : {ProposalKind::kMotion, ProposalKind::kSightings})
+    for (const double range_m : {1e10, 1e20, 1e38}) {
+      CircleWorld world(9);
+      FastSlamOptions options;
+      options.proposal = proposal;
+      options.evidence_way_m = 0.0;
+      FastSlam filter(options, {.probability = 1.0}, world.sensor(), 1);
+      drive(filter, world, 20);
+      filter.predict(world.move());
+      Observation absurd = world.sight(0);
+      absurd.value = RangeBearing{range_m, 0.0};
+      const Outcome outcome = filter.correct({&absurd, 1}).innovations[0].outcome;
+      EXPECT_EQ(outcome, range_m < 1e30 ? Outcome::kMatched : Outcome::kUnusable);
+      drive(filter, world, 50);
+      EXPECT_TRUE(filter.pose().covariance.allFinite());
+      EXPECT_LT(position_error_m(filter, world), 0.5) << range_m;
+      double total = 0.0;
+      for (const double weight : filter.particles().weights()) total += weight;
+      EXPECT_NEAR(total, 1.0, 1e-9);
+    }
+}
+
 TEST(FastSlam, StartsFromTheGivenBelief) {
   const PoseEstimate start{{3.0, -2.0, 1.0}, Eigen::Vector3d(0.04, 0.01, 0.01).asDiagonal()};
   const FastSlam filter(with_particles(20'000), {}, {}, 1, 1, start);
@@ -365,14 +398,63 @@ TEST(FastSlam, SaveFollowsAMotionThatNoParticleHasMade) {
   EXPECT_EQ(map.T_world_robot, filter.pose().T_world_robot);
 }
 
-TEST(FastSlam, ASteadyStateStepAllocatesNothing) {
+/// However landmarks are seen.
+class FastSlamSeeing : public testing::TestWithParam<Seen> {};
+
+std::string name_of(const testing::TestParamInfo<Seen>& each) {
+  if (each.param == Seen::kRangeAndBearing) return "RangeAndBearing";
+  return each.param == Seen::kRange ? "Range" : "Bearing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FastSlamSeeing,
+                         testing::Values(Seen::kRangeAndBearing, Seen::kRange, Seen::kBearing), name_of);
+
+TEST_P(FastSlamSeeing, SameSeedSameBitsOnAnyNumberOfThreads) {
+  const auto final_map = [](std::uint64_t seed, int threads) {
+    CircleWorld world(1);
+    FastSlam filter(with_particles(700), {}, world.sensor(), seed, threads);
+    drive(filter, world, 60, GetParam());
+    EXPECT_GT(filter.resamplings(), 0);
+    return filter.save();
+  };
+  const MapState one = final_map(5, 1);
+  const MapState two = final_map(5, 2);
+  const MapState other_seed = final_map(6, 1);
+  EXPECT_EQ(one.T_world_robot, two.T_world_robot);
+  EXPECT_EQ(one.landmarks, two.landmarks);
+  EXPECT_EQ(one.covariance, two.covariance);
+  EXPECT_NE(one.T_world_robot, other_seed.T_world_robot);
+}
+
+/// Whether what it sees brings no news, or all counts in full so that there is something to resample.
+TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
+  for (const double evidence_way_m : {1.0, 0.0}) {
+    CircleWorld world(4);
+    FastSlamOptions options;
+    options.evidence_way_m = evidence_way_m;
+    FastSlam filter(options, {}, world.sensor(), 1);
+    drive(filter, world, 20, GetParam());
+    const auto resamplings = filter.resamplings();
+    const std::vector<Pose2> poses = poses_of(filter);
+    for (int i = 0; i < 200; ++i) {
+      filter.predict({});
+      filter.correct(keep(GetParam(), world.look()));
+    }
+    EXPECT_EQ(filter.resamplings(), resamplings);
+    EXPECT_TRUE(poses_of(filter) == poses);
+    drive(filter, world, 100, GetParam());
+    EXPECT_GT(filter.resamplings(), resamplings);
+  }
+}
+
+TEST_P(FastSlamSeeing, ASteadyStateStepAllocatesNothing) {
   CircleWorld world(12);
   FastSlam filter(with_particles(600), {}, world.sensor(), 1, 2);
-  drive(filter, world, 5);
+  drive(filter, world, 5, GetParam());
   std::vector<std::pair<Motion, std::vector<Observation>>> steps;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const Motion motion = world.move();
-    steps.emplace_back(motion, world.look());
+    steps.emplace_back(motion, keep(GetParam(), world.look()));
   }
   const auto resamplings = filter.resamplings();
   const test::AllocationCount count;
@@ -383,6 +465,110 @@ TEST(FastSlam, ASteadyStateStepAllocatesNothing) {
   }
   EXPECT_EQ(count.allocations(), 0);
   EXPECT_GT(filter.resamplings(), resamplings);
+}
+
+/// Mean error of the landmarks over a few runs, and of the robot at their ends.
+struct Errors {
+  double landmark_m = 0.0;
+  double robot_m = 0.0;
+};
+
+Errors errors_starting(LandmarkStart init, Seen seen) {
+  constexpr int kRuns = 5;
+  Errors errors;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    FastSlamOptions options = with_particles(100);
+    options.init = init;
+    FastSlam filter(options, {}, world.sensor(), seed);
+    drive(filter, world, 200, seen);
+    errors.robot_m += position_error_m(filter, world) / kRuns;
+    for (const auto& landmark : filter.snapshot().landmarks) {
+      const auto& truth = world.landmarks()[static_cast<std::size_t>(landmark.id.number)];
+      errors.landmark_m += (landmark.position_m.head<2>() - truth).norm() / (8 * kRuns);
+    }
+  }
+  return errors;
+}
+
+TEST(FastSlam, LandmarksThatBeginAsGuessesAreOfUseButLessThanAnchoredOnes) {
+  for (const Seen seen : {Seen::kRange, Seen::kBearing}) {
+    const Errors guessed = errors_starting(LandmarkStart::kGuess, seen);
+    const Errors anchored = errors_starting(LandmarkStart::kAnchored, seen);
+    EXPECT_TRUE(std::isfinite(guessed.landmark_m));
+    EXPECT_LT(anchored.landmark_m, guessed.landmark_m);
+    EXPECT_LT(anchored.robot_m, guessed.robot_m);
+  }
+}
+
+/// Errors of landmarks that a sensor with a field of view sees by their range alone, if it is told how often
+/// it reports what is there.
+std::vector<double> errors_m_knowing(double detection_probability, std::uint64_t seed) {
+  CircleWorld world(seed);
+  RandomStream misses(seed, StreamPurpose::kWorld);
+  LandmarkSensor sensor = world.sensor();
+  sensor.max_range_m = 7.0;
+  sensor.field_of_view_deg = 90.0;
+  sensor.detection_probability = detection_probability;
+  FastSlam filter(with_particles(100), {}, sensor, seed);
+  for (int i = 0; i < 120; ++i) {
+    filter.predict(world.move());
+    std::vector<Observation> scan;
+    for (const Observation& observation : world.look()) {
+      const auto& p_world = world.landmarks()[static_cast<std::size_t>(observation.id->number)];
+      const Pose2 T_world_sensor = world.truth() * world.mount();
+      if (is_in_view(sensor, T_world_sensor.inverse() * p_world) && misses.uniform() < 0.95)
+        scan.push_back(keep(Seen::kRange, observation));
+    }
+    filter.correct(scan);
+  }
+  std::vector<double> errors_m;
+  for (const auto& landmark : filter.snapshot().landmarks) {
+    const auto& truth = world.landmarks()[static_cast<std::size_t>(landmark.id.number)];
+    errors_m.push_back((landmark.position_m.head<2>() - truth).norm());
+  }
+  return errors_m;
+}
+
+TEST(FastSlam, WhatASensorDoesNotReportTellsWhereLandmarksAre) {
+  constexpr std::uint64_t kRuns = 12;
+  const auto mean_error_m = [](double detection_probability) {
+    std::vector<double> errors_m;
+    for (std::uint64_t seed = 0; seed < kRuns; ++seed)
+      std::ranges::copy(errors_m_knowing(detection_probability, seed), std::back_inserter(errors_m));
+    return std::accumulate(errors_m.begin(), errors_m.end(), 0.0) / static_cast<double>(errors_m.size());
+  };
+  EXPECT_LT(mean_error_m(0.95), 0.85 * mean_error_m(0.0));
+}
+
+/// Mean error of a landmark on a ring after twelve steps, if it is missed at some of them.
+double error_m_when_missing(std::initializer_list<int> missed) {
+  constexpr std::uint64_t kRuns = 20;
+  double error_m = 0.0;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    LandmarkSensor sensor = world.sensor();
+    sensor.field_of_view_deg = 350.0;
+    sensor.detection_probability = 0.95;  // gone after three scans
+    FastSlam filter(with_particles(100), {}, sensor, seed);
+    for (int i = 0; i < 12; ++i) {
+      filter.predict(world.move());
+      auto scan = keep(Seen::kRange, world.look());
+      if (std::ranges::count(missed, i) > 0) scan.erase(scan.begin());
+      filter.correct(scan);
+    }
+    for (const auto& landmark : filter.snapshot().landmarks)
+      if (landmark.id.number == 0)
+        error_m += (landmark.position_m.head<2>() - world.landmarks()[0]).norm() / kRuns;
+  }
+  return error_m;
+}
+
+/// Seen again at the very scan at which it would have gone, it has not gone by an edge.
+TEST(FastSlam, ALandmarkThatComesBackInTimeHasNotLeftTheView) {
+  const double seen_m = error_m_when_missing({});
+  const double missed_m = error_m_when_missing({9, 10});
+  EXPECT_LT(missed_m, 1.2 * seen_m);
 }
 
 TEST(FastSlam, OptionsAreDescribedWithTheirDefaults) {

@@ -18,41 +18,146 @@ using test::matrix_near;
 constexpr int kCount = 300;
 constexpr LandmarkSensor kSensor{.min_range_m = 0.5, .max_range_m = 10.0, .field_of_view_deg = 90.0};
 
-TEST(FirstForm, ARayCoversTheSensorsRange) {
-  const FirstForm first = first_form({SightingKind::kBearing}, kSensor);
-  EXPECT_EQ(first.form, LandmarkForm::kRay);
-  const double sigma = std::sqrt(first.guess.rho_var);
-  EXPECT_NEAR(first.guess.rho + 2.0 * sigma, 1.0 / 0.5, 1e-6);
-  EXPECT_NEAR(first.guess.rho - 2.0 * sigma, 1.0 / 10.0, 1e-6);
+/// Of the mixture of a first guess, in the numbers of its hypotheses.
+struct Mixture {
+  double weight = 0.0;
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+Mixture mixture_of(const FirstForm& first) {
+  Mixture m;
+  double second = 0.0;
+  for (std::size_t k = 0; k < first.modes; ++k) {
+    const kernels::FirstMode& mode = first.guess.modes[k];
+    const double w = std::exp(static_cast<double>(mode.log_weight));
+    const auto value = static_cast<double>(mode.value);
+    m.weight += w;
+    m.mean += w * value;
+    second += w * (value * value + static_cast<double>(mode.variance));
+  }
+  m.variance = second - m.mean * m.mean;
+  return m;
 }
 
-TEST(FirstForm, ARingCoversTheFieldOfViewEvenly) {
-  SeenLandmark seen{SightingKind::kRange, 4.0F};
+double density(const FirstForm& first, double value) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < first.modes; ++k) {
+    const kernels::FirstMode& mode = first.guess.modes[k];
+    const auto variance = static_cast<double>(mode.variance);
+    sum += std::exp(static_cast<double>(mode.log_weight) -
+                    0.5 * std::pow(value - static_cast<double>(mode.value), 2) / variance) /
+           std::sqrt(variance);
+  }
+  return sum;
+}
+
+SeenLandmark bearing_ahead() {
+  SeenLandmark seen{SightingKind::kBearing};
+  seen.R_bb = 1e-4F;
+  return seen;
+}
+
+SeenLandmark range_of(float range_m) {
+  SeenLandmark seen{SightingKind::kRange, range_m};
   seen.R_rr = 0.0025F;
-  const FirstForm first = first_form(seen, kSensor);
-  EXPECT_EQ(first.form, LandmarkForm::kRing);
-  const auto modes = static_cast<double>(first.modes);
-  EXPECT_NEAR(modes * first.guess.phi_spacing, 0.5 * kPi, 1e-5);
-  // The density that the hypotheses add up to, halfway between two of them and on one.
-  const auto density = [&](double phi) {
-    double sum = 0.0;
-    for (int k = -20; k <= 20; ++k)
-      sum += std::exp(-0.5 * std::pow(phi - static_cast<float>(k) * first.guess.phi_spacing, 2) /
-                      first.guess.phi_var);
-    return sum;
-  };
-  EXPECT_NEAR(density(0.5 * first.guess.phi_spacing) / density(0.0), 1.0, 0.005);
-  // b sigma_phi^2 / 2 < 0.3 sigma_r for a way as long as the range.
-  EXPECT_LT(0.5 * 4.0 * first.guess.phi_var, 0.3 * 0.05 * 1.01);
+  return seen;
+}
+
+/// Of a sensor that misses one landmark in a hundred, on a robot that moved by `step` between its scans.
+ViewHistory history_of(const LandmarkSensor& sensor, const Pose2& step) {
+  ViewHistory history(sensor);
+  for (int scan = 0; scan < 6; ++scan) {
+    history.move(step);
+    history.scan();
+  }
+  return history;
+}
+
+LandmarkSensor attentive(LandmarkSensor sensor = kSensor) {
+  sensor.detection_probability = 0.99;
+  return sensor;
+}
+
+TEST(FirstForm, WhereNothingIsKnownARayCoversTheSensorsRangeEvenly) {
+  for (const ViewHistory& history : {ViewHistory(kSensor), history_of(kSensor, {0.5, 0.0, 0.1})}) {
+    const FirstForm first = first_form(bearing_ahead(), kSensor, history);
+    EXPECT_EQ(first.form, LandmarkForm::kRay);
+    const Mixture mixture = mixture_of(first);
+    EXPECT_NEAR(mixture.weight, 1.0, 1e-5);
+    EXPECT_NEAR(mixture.mean, std::log(10.0 / 0.5) / 9.5, 1e-3);  // of 1 / d for even d
+    // The density of 1 / d is one over the square of it.
+    for (double depth_m = 1.0; depth_m < 8.0; depth_m += 0.1)
+      EXPECT_NEAR(density(first, 1.0 / depth_m) / density(first, 0.25) * std::pow(4.0 / depth_m, 2), 1.0, 0.4)
+          << depth_m;
+  }
+}
+
+TEST(FirstForm, WhereNothingIsKnownARingCoversTheFieldOfViewEvenly) {
+  for (const ViewHistory& history : {ViewHistory(kSensor), history_of(kSensor, {0.5, 0.0, 0.1})}) {
+    const FirstForm first = first_form(range_of(4.0F), kSensor, history);
+    EXPECT_EQ(first.form, LandmarkForm::kRing);
+    const Mixture mixture = mixture_of(first);
+    EXPECT_NEAR(mixture.weight, 1.0, 1e-5);
+    EXPECT_NEAR(mixture.mean, 0.0, 1e-4);
+    for (double phi = -0.6; phi < 0.6; phi += 0.01)
+      EXPECT_NEAR(density(first, phi) / density(first, 0.0), 1.0, 0.02) << phi;
+    // b sigma_phi^2 / 2 < 0.3 sigma_r for a way as long as the range, but for the blur of a bearing.
+    const double blur = to_radians(kSensor.bearing_sigma_deg) * to_radians(kSensor.bearing_sigma_deg);
+    for (std::size_t k = 0; k < first.modes; ++k)
+      EXPECT_LT(0.5 * 4.0 * (static_cast<double>(first.guess.modes[k].variance) - 1.1 * blur), 0.3 * 0.05);
+  }
+}
+
+TEST(FirstForm, WhatEntersByAnEdgeIsAtThatEdge) {
+  const LandmarkSensor sensor = attentive();
+  const double turn_rad = to_radians(5.0);
+  for (const double side : {1.0, -1.0}) {
+    const FirstForm first =
+        first_form(range_of(4.0F), sensor, history_of(sensor, {0.0, 0.0, side * turn_rad}));
+    const Mixture mixture = mixture_of(first);
+    EXPECT_NEAR(mixture.weight, 1.0, 1e-5);
+    EXPECT_NEAR(side * mixture.mean, to_radians(45.0) - 0.5 * turn_rad, to_radians(2.0));
+    EXPECT_LT(std::sqrt(mixture.variance), turn_rad);
+  }
+}
+
+TEST(FirstForm, WhatEntersByTheReachIsAboutAsFarAway) {
+  const LandmarkSensor sensor = attentive();
+  const FirstForm first = first_form(bearing_ahead(), sensor, history_of(sensor, {0.5, 0.0, 0.0}));
+  ASSERT_EQ(first.modes, 1U);
+  EXPECT_EQ(first.guess.modes[0].log_weight, 0.0F);
+  const double depth_m = 1.0 / static_cast<double>(first.guess.modes[0].value);
+  EXPECT_NEAR(depth_m, 9.75, 0.25);
+  const double sigma_m = std::sqrt(static_cast<double>(first.guess.modes[0].variance)) * depth_m * depth_m;
+  EXPECT_GT(sigma_m, 0.5 / std::sqrt(12.0));
+  EXPECT_LT(sigma_m, 1.0);
+}
+
+/// The sensor looks to the left, so driving ahead brings landmarks in by its front edge, not by its reach.
+TEST(FirstForm, DirectionsCountFromTheSensorsAxis) {
+  LandmarkSensor sensor = attentive();
+  sensor.yaw_deg = 90.0;
+  const Mixture mixture = mixture_of(first_form(range_of(4.0F), sensor, history_of(sensor, {0.4, 0.0, 0.0})));
+  EXPECT_LT(mixture.mean, to_radians(-35.0));
+  EXPECT_LT(std::sqrt(mixture.variance), to_radians(6.0));
 }
 
 TEST(FirstForm, HypothesesAreBounded) {
-  SeenLandmark seen{SightingKind::kRange, 1000.0F};
+  SeenLandmark seen = range_of(1000.0F);
   seen.R_rr = 1e-6F;
-  EXPECT_EQ(first_form(seen, {}).modes, kernels::kMaxModes);
+  EXPECT_EQ(first_form(seen, {}, ViewHistory({})).modes, kernels::kMaxModes);
+  const LandmarkSensor far{.min_range_m = 0.0, .max_range_m = 1e6};
+  EXPECT_LE(first_form(bearing_ahead(), far, ViewHistory(far)).modes, kernels::kMaxModes);
   LandmarkSensor blind = kSensor;
   blind.field_of_view_deg = 0.0;
-  EXPECT_GE(first_form({SightingKind::kRange, 0.1F, 1.0F, 0.0F, 1.0F}, blind).modes, 1U);
+  blind.max_range_m = 0.0;
+  for (const SeenLandmark& each : {range_of(0.1F), bearing_ahead()}) {
+    const FirstForm first = first_form(each, blind, ViewHistory(blind));
+    ASSERT_GE(first.modes, 1U);
+    EXPECT_TRUE(std::isfinite(mixture_of(first).mean));
+    EXPECT_GT(mixture_of(first).variance, 0.0);
+  }
 }
 
 TEST(CanTake, PointsTakeAllOthersTheirOwn) {
@@ -62,6 +167,9 @@ TEST(CanTake, PointsTakeAllOthersTheirOwn) {
     EXPECT_EQ(can_take(LandmarkForm::kRay, kind), kind == SightingKind::kBearing);
     EXPECT_EQ(can_take(LandmarkForm::kRing, kind), kind == SightingKind::kRange);
   }
+  EXPECT_TRUE(can_take(LandmarkForm::kPoint, SightingKind::kViewEdge));
+  EXPECT_TRUE(can_take(LandmarkForm::kRing, SightingKind::kViewEdge));
+  EXPECT_FALSE(can_take(LandmarkForm::kRay, SightingKind::kViewEdge));
 }
 
 /// One landmark of many particles, whose numbers are written by the test.

@@ -1,5 +1,6 @@
 #include "waymark/kernels/particle_sightings.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,7 +37,11 @@ constexpr Case kCases[]{
     {"bearing of a point", LandmarkForm::kPoint, SightingKind::kBearing, 1},
     {"bearing of a ray", LandmarkForm::kRay, SightingKind::kBearing, 1},
     {"range of a ring", LandmarkForm::kRing, SightingKind::kRange, 1},
-    {"range of a ring of five", LandmarkForm::kRing, SightingKind::kRange, 5}};
+    {"range of a ring of five", LandmarkForm::kRing, SightingKind::kRange, 5},
+    {"bearing of a ray of five", LandmarkForm::kRay, SightingKind::kBearing, 5},
+    {"edge of the view at a point", LandmarkForm::kPoint, SightingKind::kViewEdge, 1},
+    {"edge of the view at a ring", LandmarkForm::kRing, SightingKind::kViewEdge, 1},
+    {"edge of the view at a ring of five", LandmarkForm::kRing, SightingKind::kViewEdge, 5}};
 
 constexpr std::size_t kCounts[]{1, 7, 16, 37};
 
@@ -44,6 +49,16 @@ constexpr Increment kIncrement{0.1F, 0.02F, 0.05F, 2e-3F, 3e-4F, 2e-4F, 1e-3F, 4
 
 ParticleScene make_scene(const Case& c, std::size_t count, std::uint64_t seed = 1) {
   return {count, c.form, c.kind, c.modes, seed};
+}
+
+/// A hypothesis for each mode, all different.
+FirstGuess make_guess() {
+  FirstGuess guess;
+  for (std::size_t k = 0; k < guess.modes.size(); ++k) {
+    const auto step = static_cast<float>(k);
+    guess.modes[k] = {0.5F - 0.1F * step, 0.02F + 0.001F * step, -0.5F - 0.1F * step};
+  }
+  return guess;
 }
 
 using Values = std::vector<std::vector<float>>;
@@ -90,8 +105,7 @@ TEST_P(ParticleSightings, UpdateAsTheScalarFormulaDoes) {
 }
 
 TEST_P(ParticleSightings, ConditionAsTheScalarFormulaDoes) {
-  for (const Case& c : kCases) {
-    if (c.modes > 1) continue;
+  for (const Case& c : kCases)
     compare(
         c,
         [](ParticleScene& s) {
@@ -101,11 +115,19 @@ TEST_P(ParticleSightings, ConditionAsTheScalarFormulaDoes) {
           reference::condition_increments(s.sighting, kIncrement, s.poses, 0.7, s.increments, s.log_weight(),
                                           s.range());
         });
+}
+
+TEST_P(ParticleSightings, MissAsTheScalarFormulaDoes) {
+  for (const Case& c : kCases) {
+    if (c.modes == 1) continue;
+    compare(
+        c, [](ParticleScene& s) { miss_modes(s.sighting, 0.9, s.poses, s.range()); },
+        [](ParticleScene& s) { reference::miss_modes(s.sighting, 0.9, s.poses, s.range()); });
   }
 }
 
 TEST_P(ParticleSightings, PlaceAsTheScalarFormulaDoes) {
-  const FirstGuess guess{0.5F, 0.1F, 0.3F, 0.02F};
+  const FirstGuess guess = make_guess();
   for (const Case& c : kCases)
     compare(
         c, [&](ParticleScene& s) { place_landmark(s.sighting, guess, s.poses, s.range()); },
@@ -136,7 +158,6 @@ TEST_P(ParticleSightings, CompareAsTheScalarFormulaDoes) {
 TEST_P(ParticleSightings, ListInnovationsAsTheScalarFormulaDoes) {
   const About about{0.2F, -0.1F};
   for (const Case& c : kCases) {
-    if (c.modes > 1) continue;
     ParticleScene scene = make_scene(c, 37);
     float* const fast[]{scene.columns().add(), scene.columns().add()};
     float* const plain[]{scene.columns().add(), scene.columns().add()};
@@ -172,18 +193,27 @@ Eigen::Vector2d predicted(const ParticleScene& scene, std::size_t i, const Eigen
       .predicted;
 }
 
-Textbook textbook(const ParticleScene& scene, std::size_t i, const Pose2& robot) {
+bool is_range(SightingKind kind) {
+  return kind == SightingKind::kRangeBearing || kind == SightingKind::kRange;
+}
+
+/// The bearing that was seen: for an edge of the view the one nearer to what is expected.
+double seen_bearing(const ParticleScene& scene, double expected) {
+  const auto& [seen, mount, landmark] = scene.sighting;
+  if (seen.kind == SightingKind::kViewEdge) return std::copysign(mount.half_view, wrap_angle(expected));
+  return std::atan2(seen.sin_bearing, seen.cos_bearing) - std::atan2(mount.sin_yaw, mount.cos_yaw);
+}
+
+Textbook textbook(const ParticleScene& scene, std::size_t i, const Pose2& robot, std::size_t mode = 0) {
   const SeenLandmark& z = scene.sighting.seen;
-  const SensorMount& mount = scene.sighting.mount;
   Eigen::Matrix<double, 5, 1> at;
-  at << robot.x_m, robot.y_m, robot.theta_rad, mean_of(scene.gaussian(), i);
+  at << robot.x_m, robot.y_m, robot.theta_rad, mean_of(scene.gaussian(mode), i);
   const auto H = test::numeric_jacobian(
       [&](const Eigen::Matrix<double, 5, 1>& x) { return predicted(scene, i, x); }, at);
   const Eigen::Vector2d h = predicted(scene, i, at);
-  const double bearing = std::atan2(z.sin_bearing, z.cos_bearing) - std::atan2(mount.sin_yaw, mount.cos_yaw);
-  const Eigen::Vector2d nu(z.range - h[0], wrap_angle(bearing - h[1]));
+  const Eigen::Vector2d nu(z.range - h[0], wrap_angle(seen_bearing(scene, h[1]) - h[1]));
   const Eigen::Matrix2d R = Eigen::Matrix2f{{z.R_rr, z.R_rb}, {z.R_rb, z.R_bb}}.cast<double>();
-  const int first = z.kind == SightingKind::kBearing ? 1 : 0;
+  const int first = is_range(z.kind) ? 0 : 1;
   const int rows = z.kind == SightingKind::kRangeBearing ? 2 : 1;
   return {nu.segment(first, rows), R.block(first, first, rows, rows), H.block(first, 0, rows, 3),
           H.block(first, 3, rows, 2)};
@@ -224,8 +254,8 @@ Pose2 end_of(const Pose2& start, const Eigen::Vector3d& s) {
 
 /// d(measurement)/ds by central differences.
 Eigen::MatrixXd jacobian_of_motion(const ParticleScene& scene, std::size_t i, const Pose2& start,
-                                   const Eigen::Vector3d& s) {
-  const Eigen::Vector2d y = mean_of(scene.gaussian(), i);
+                                   const Eigen::Vector3d& s, std::size_t mode = 0) {
+  const Eigen::Vector2d y = mean_of(scene.gaussian(mode), i);
   const auto H = test::numeric_jacobian(
       [&](const Eigen::Vector3d& x) {
         const Pose2 robot = end_of(start, x);
@@ -236,7 +266,7 @@ Eigen::MatrixXd jacobian_of_motion(const ParticleScene& scene, std::size_t i, co
       s);
   const SightingKind kind = scene.sighting.seen.kind;
   const int rows = kind == SightingKind::kRangeBearing ? 2 : 1;
-  return H.block(kind == SightingKind::kBearing ? 1 : 0, 0, rows, 3);
+  return H.block(is_range(kind) ? 0 : 1, 0, rows, 3);
 }
 
 TEST(ConditionIncrements, IsTheTextbookFilterOfTheRobotsMotion) {
@@ -259,6 +289,96 @@ TEST(ConditionIncrements, IsTheTextbookFilterOfTheRobotsMotion) {
       EXPECT_TRUE(matrix_near(covariance_of(after.increments, i), P - K * L * K.transpose(), 1e-6)) << c.name;
       EXPECT_NEAR(after.log_weight()[i], log_normal(t.nu, L), 1e-3 + 1e-5 * std::abs(after.log_weight()[i]))
           << c.name;
+    }
+  }
+}
+
+/// Unequal weights; one hypothesis is dropped and holds nothing that is a number.
+void weigh_modes(ParticleScene& scene) {
+  constexpr float kWeights[]{0.1F, 0.2F, 0.3F, 0.0F, 0.4F};
+  for (std::size_t i = 0; i < scene.count(); ++i)
+    for (std::size_t k = 0; k < 5; ++k)
+      scene.modes()[k].log_weight[i] = kWeights[k] > 0.0F ? std::log(kWeights[k]) : kDeadMode;
+  for (std::size_t i = 0; i < scene.count(); ++i)
+    scene.gaussian(3).a[i] = scene.gaussian(3).bb[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
+double weight_of(const ParticleScene& scene, std::size_t mode, std::size_t i) {
+  return std::exp(static_cast<double>(scene.modes()[mode].log_weight[i]));
+}
+
+TEST(ConditionIncrements, SeveralHypothesesCountByTheMomentsOfTheirMixture) {
+  for (const Case& c : kCases) {
+    if (c.modes == 1) continue;
+    ParticleScene before = make_scene(c, 20);
+    weigh_modes(before);
+    ParticleScene after = make_scene(c, 20);
+    weigh_modes(after);
+    condition_increments(after.sighting, kIncrement, after.poses, 1.0, after.increments, after.log_weight(),
+                         after.range());
+    for (std::size_t i = 0; i < 20; ++i) {
+      const Pose2 start = pose_of(before.poses, i);
+      const Eigen::Vector3d s = mean_of(before.increments, i);
+      const Eigen::Matrix3d P = covariance_of(before.increments, i);
+      double nu = 0.0;
+      double second = 0.0;
+      Eigen::RowVector3d G = Eigen::RowVector3d::Zero();
+      for (const std::size_t k : {0U, 1U, 2U, 4U}) {
+        const double w = weight_of(before, k, i);
+        const Textbook t = textbook(before, i, end_of(start, s), k);
+        const Eigen::RowVector3d G_k = jacobian_of_motion(before, i, start, s, k);
+        const Eigen::Matrix2d Sigma = covariance_of(before.gaussian(k), i);
+        nu += w * t.nu[0];
+        second += w * (t.nu[0] * t.nu[0] + G_k * P * G_k.transpose() +
+                       (t.H_landmark * Sigma * t.H_landmark.transpose() + t.R)(0, 0));
+        G += w * G_k;
+      }
+      const double L = second - nu * nu;
+      const Eigen::Vector3d K = P * G.transpose() / L;
+      EXPECT_TRUE(matrix_near(mean_of(after.increments, i), s + K * nu, 1e-5)) << c.name;
+      EXPECT_TRUE(matrix_near(covariance_of(after.increments, i), P - K * L * K.transpose(), 1e-6)) << c.name;
+      EXPECT_NEAR(after.log_weight()[i], -0.5 * (nu * nu / L + std::log(L)), 1e-3) << c.name;
+    }
+  }
+}
+
+TEST(ConditionIncrements, WithoutAnyHypothesisLeftNothingIsLearnt) {
+  for (const Case& c : kCases) {
+    if (c.modes == 1) continue;
+    ParticleScene scene = make_scene(c, 16);
+    const ParticleScene before = make_scene(c, 16);
+    for (std::size_t i = 0; i < 16; ++i)
+      for (const LandmarkMode& mode : scene.modes()) {
+        mode.log_weight[i] = kDeadMode;
+        mode.gaussian.a[i] = std::numeric_limits<float>::infinity();
+      }
+    condition_increments(scene.sighting, kIncrement, scene.poses, 1.0, scene.increments, scene.log_weight(),
+                         scene.range());
+    for (std::size_t i = 0; i < 16; ++i) {
+      EXPECT_TRUE(std::isfinite(scene.log_weight()[i])) << c.name;
+      EXPECT_EQ(mean_of(scene.increments, i), mean_of(before.increments, i)) << c.name;
+      EXPECT_EQ(covariance_of(scene.increments, i), covariance_of(before.increments, i)) << c.name;
+    }
+  }
+}
+
+TEST(ListInnovations, OfSeveralHypothesesTheMeanCounts) {
+  const About about{0.2F, -0.1F};
+  for (const Case& c : kCases) {
+    if (c.modes == 1) continue;
+    ParticleScene scene = make_scene(c, 20);
+    weigh_modes(scene);
+    float* const nu_r = scene.columns().add();
+    float* const nu_b = scene.columns().add();
+    list_innovations(scene.sighting, kIncrement, scene.poses, about, nu_r, nu_b, scene.range());
+    const bool has_range = is_range(c.kind);
+    for (std::size_t i = 0; i < 20; ++i) {
+      const Pose2 robot = end_of(pose_of(scene.poses, i), Eigen::Vector3d::Zero());
+      double mean = 0.0;
+      for (const std::size_t k : {0U, 1U, 2U, 4U})
+        mean += weight_of(scene, k, i) *
+                (textbook(scene, i, robot, k).nu[0] - (has_range ? about.range : about.bearing));
+      EXPECT_NEAR((has_range ? nu_r : nu_b)[i], mean, 1e-5) << c.name;
     }
   }
 }
@@ -332,37 +452,35 @@ TEST(UpdateLandmark, ARayNeverReachesBeyondTheSensorsRange) {
   for (std::size_t i = 0; i < 16; ++i) EXPECT_GE(scene.gaussian().b[i], scene.sighting.mount.least_rho);
 }
 
-/// log sum_k w_k N(nu_k; 0, S_k) V_k, and the posterior weights, with V_k the chance to be in view.
+/// log sum_k w_k N(nu_k; 0, S_k), and the posterior weights.
 TEST(UpdateLandmark, WeighsHypothesesByTheirLikelihood) {
-  ParticleScene before = make_scene(kCases[5], 20);
-  ParticleScene after = make_scene(kCases[5], 20);
-  before.sighting.mount.half_view = after.sighting.mount.half_view = 4.0F;  // sees all round
-  update_landmark(after.sighting, after.poses, 1.0, after.log_weight(), after.range());
-  before.sighting.mount.x = before.sighting.mount.y = 0.0F;
-  for (std::size_t i = 0; i < 20; ++i) {
-    double likelihood = 0.0;
-    std::vector<double> parts;
-    for (const LandmarkMode& mode : before.modes()) {
-      ParticleScene alone = make_scene(kCases[4], 20);
-      alone.sighting.mount = before.sighting.mount;
-      alone.sighting.landmark.anchor_x[i] = before.sighting.landmark.anchor_x[i];
-      alone.sighting.landmark.anchor_y[i] = before.sighting.landmark.anchor_y[i];
-      alone.gaussian().a[i] = mode.gaussian.a[i];
-      alone.gaussian().b[i] = mode.gaussian.b[i];
-      const Textbook t = textbook(alone, i, pose_of(before.poses, i));
-      const Eigen::MatrixXd S =
-          t.H_landmark * covariance_of(mode.gaussian, i) * t.H_landmark.transpose() + t.R;
-      parts.push_back(std::exp(log_normal(t.nu, S)) / 5.0);
-      likelihood += parts.back();
+  for (const Case& c : kCases) {
+    if (c.modes == 1) continue;
+    ParticleScene before = make_scene(c, 20);
+    ParticleScene after = make_scene(c, 20);
+    if (c.kind == SightingKind::kRange)
+      before.sighting.mount.half_view = after.sighting.mount.half_view = 4.0F;  // sees all round
+    update_landmark(after.sighting, after.poses, 1.0, after.log_weight(), after.range());
+    before.sighting.mount.x = before.sighting.mount.y = 0.0F;
+    for (std::size_t i = 0; i < 20; ++i) {
+      double likelihood = 0.0;
+      std::vector<double> parts;
+      for (std::size_t k = 0; k < 5; ++k) {
+        const Textbook t = textbook(before, i, pose_of(before.poses, i), k);
+        const Eigen::MatrixXd S =
+            t.H_landmark * covariance_of(before.gaussian(k), i) * t.H_landmark.transpose() + t.R;
+        parts.push_back(std::exp(log_normal(t.nu, S)) / 5.0);
+        likelihood += parts.back();
+      }
+      EXPECT_NEAR(after.log_weight()[i], std::log(likelihood), 1e-3 * (1.0 + std::abs(std::log(likelihood))))
+          << c.name;
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 5; ++k) {
+        sum += weight_of(after, k, i);
+        EXPECT_NEAR(weight_of(after, k, i), parts[k] / likelihood, 5e-3) << c.name;
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-4) << c.name;
     }
-    EXPECT_NEAR(after.log_weight()[i], std::log(likelihood), 1e-3 * (1.0 + std::abs(std::log(likelihood))));
-    double sum = 0.0;
-    for (std::size_t k = 0; k < 5; ++k) {
-      const double weight = std::exp(after.modes()[k].log_weight[i]);
-      sum += weight;
-      EXPECT_NEAR(weight, parts[k] / likelihood, 5e-3);
-    }
-    EXPECT_NEAR(sum, 1.0, 1e-4);
   }
 }
 
@@ -383,6 +501,63 @@ TEST(UpdateLandmark, DropsHypothesesOutsideTheFieldOfView) {
   }
 }
 
+/// A ring of five seen from its middle by robots that look along x, in directions so far left of the
+/// sensor's axis; half the field of view is 0.6.
+ParticleScene make_fan() {
+  constexpr float kLeft[]{-0.7F, -0.3F, 0.0F, 0.3F, 0.7F};
+  ParticleScene scene = make_scene(kCases[5], 16);
+  const LandmarkView& l = scene.sighting.landmark;
+  for (std::size_t i = 0; i < 16; ++i) {
+    scene.poses.x[i] = l.anchor_x[i] + l.offset_x;
+    scene.poses.y[i] = l.anchor_y[i] + l.offset_y;
+    scene.poses.cos[i] = 1.0F;
+    scene.poses.sin[i] = 0.0F;
+    for (std::size_t k = 0; k < 5; ++k) {
+      scene.gaussian(k).a[i] = 0.5F + kLeft[k];
+      scene.gaussian(k).b[i] = 5.0F;
+      scene.gaussian(k).aa[i] = 1e-4F;
+    }
+  }
+  return scene;
+}
+
+void expect_weights(const ParticleScene& scene, const std::array<double, 5>& expected) {
+  for (std::size_t i = 0; i < scene.count(); ++i)
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(weight_of(scene, k, i), expected[k], 1e-4) << k;
+}
+
+TEST(MissModes, WhatWasClearlyInViewLosesWeight) {
+  ParticleScene scene = make_fan();
+  miss_modes(scene.sighting, 0.9, scene.poses, scene.range());
+  const double all = 2.0 + 3.0 * 0.1;
+  expect_weights(scene, {1.0 / all, 0.1 / all, 0.1 / all, 0.1 / all, 1.0 / all});
+}
+
+TEST(MissModes, OutOfReachOrTooNearNothingIsMissed) {
+  ParticleScene far = make_fan();
+  far.sighting.mount.least_rho = 1.0F / 4.9F;
+  miss_modes(far.sighting, 0.9, far.poses, far.range());
+  expect_weights(far, {0.2, 0.2, 0.2, 0.2, 0.2});
+  ParticleScene near = make_fan();
+  near.sighting.mount.least_range = 5.1F;
+  miss_modes(near.sighting, 0.9, near.poses, near.range());
+  expect_weights(near, {0.2, 0.2, 0.2, 0.2, 0.2});
+}
+
+TEST(MissModes, WhatCouldHaveBeenNowhereElseStays) {
+  ParticleScene scene = make_fan();
+  scene.sighting.mount.half_view = 4.0F;
+  for (int scan = 0; scan < 100; ++scan) miss_modes(scene.sighting, 0.9, scene.poses, scene.range());
+  expect_weights(scene, {0.2, 0.2, 0.2, 0.2, 0.2});
+}
+
+TEST(MissModes, DroppedHypothesesStayDroppedWhateverTheyHold) {
+  ParticleScene scene = make_fan();
+  weigh_modes(scene);
+  for (int scan = 0; scan < 5; ++scan) miss_modes(scene.sighting, 0.9, scene.poses, scene.range());
+  expect_weights(scene, {0.2, 0.0, 0.0, 0.0, 0.8});
+}
+
 TEST(PlaceLandmark, InvertsTheMeasurementOfAPoint) {
   ParticleScene scene = make_scene(kCases[0], 20);
   place_landmark(scene.sighting, {}, scene.poses, scene.range());
@@ -398,27 +573,29 @@ TEST(PlaceLandmark, InvertsTheMeasurementOfAPoint) {
 }
 
 TEST(PlaceLandmark, RaysAndRingsBeginAtTheirSensor) {
-  const FirstGuess guess{0.5F, 0.1F, 0.3F, 0.02F};
+  const FirstGuess guess = make_guess();
   for (const Case& c : kCases) {
     if (c.form == LandmarkForm::kPoint) continue;
     ParticleScene scene = make_scene(c, 20);
     place_landmark(scene.sighting, guess, scene.poses, scene.range());
     const bool is_ray = c.form == LandmarkForm::kRay;
+    const SeenLandmark& z = scene.sighting.seen;
     for (std::size_t i = 0; i < 20; ++i) {
       const LandmarkView& l = scene.sighting.landmark;
       EXPECT_NEAR(l.anchor_x[i] + l.offset_x, scene.poses.x[i], 1e-6F);
       EXPECT_NEAR(l.anchor_y[i] + l.offset_y, scene.poses.y[i], 1e-6F);
-      // The ray goes where the landmark was seen, the ring is symmetric to the sensor's axis.
-      const double direction = pose_of(scene.poses, i).theta_rad + (is_ray ? 0.4 : 0.5);
-      double mean_phi = 0.0;
-      for (const LandmarkMode& mode : scene.modes())
-        mean_phi += mode.gaussian.a[i] / static_cast<double>(c.modes);
-      EXPECT_NEAR(mean_phi, direction, 1e-5) << c.name;
-      EXPECT_EQ(scene.gaussian().b[i], is_ray ? guess.rho : scene.sighting.seen.range);
-      EXPECT_EQ(scene.gaussian().aa[i], is_ray ? scene.sighting.seen.R_bb : guess.phi_var);
-    }
-    if (c.modes == 5) {
-      EXPECT_NEAR(scene.gaussian(4).a[3] - scene.gaussian(0).a[3], 4.0F * guess.phi_spacing, 1e-5F);
+      for (std::size_t k = 0; k < c.modes; ++k) {
+        // The ray goes where the landmark was seen, directions on a ring count from the sensor's axis.
+        const auto& [value, variance, log_weight] = guess.modes[k];
+        const double direction = pose_of(scene.poses, i).theta_rad + (is_ray ? 0.4 : 0.5 + value);
+        EXPECT_NEAR(scene.gaussian(k).a[i], direction, 1e-5) << c.name;
+        EXPECT_EQ(scene.gaussian(k).b[i], is_ray ? value : z.range);
+        EXPECT_EQ(scene.gaussian(k).aa[i], is_ray ? z.R_bb : variance);
+        EXPECT_EQ(scene.gaussian(k).bb[i], is_ray ? variance : z.R_rr);
+        if (c.modes > 1) {
+          EXPECT_EQ(scene.modes()[k].log_weight[i], log_weight);
+        }
+      }
     }
   }
 }

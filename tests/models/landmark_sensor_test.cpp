@@ -103,6 +103,36 @@ TEST(WithWhiteErrors, CoversWhatLastsByNoise) {
   EXPECT_FALSE(white.errors.shares());
 }
 
+Eigen::Vector2d at(double range_m, double bearing_deg) {
+  return range_m * Eigen::Vector2d(std::cos(to_radians(bearing_deg)), std::sin(to_radians(bearing_deg)));
+}
+
+TEST(IsInView, TakesInWhatIsWithinTheLimits) {
+  LandmarkSensor sensor = example_sensor();
+  sensor.field_of_view_deg = 60.0;
+  for (const Eigen::Vector2d& inside : {at(0.51, 0.0), at(7.99, 0.0), at(4.0, 29.9), at(4.0, -29.9)})
+    EXPECT_TRUE(is_in_view(sensor, inside)) << inside;
+  for (const Eigen::Vector2d& outside :
+       {at(0.49, 0.0), at(8.01, 0.0), at(4.0, 30.1), at(4.0, -30.1), at(4.0, 180.0)})
+    EXPECT_FALSE(is_in_view(sensor, outside)) << outside;
+}
+
+TEST(IsInView, AMarginKeepsClearOfEachLimit) {
+  LandmarkSensor sensor = example_sensor();
+  sensor.field_of_view_deg = 60.0;
+  const ViewMargin margin{0.2, to_radians(2.0)};
+  for (const Eigen::Vector2d& inside : {at(0.71, 0.0), at(7.79, 0.0), at(4.0, 27.9), at(4.0, -27.9)})
+    EXPECT_TRUE(is_in_view(sensor, inside, margin)) << inside;
+  for (const Eigen::Vector2d& near : {at(0.69, 0.0), at(7.81, 0.0), at(4.0, 28.1), at(4.0, -28.1)})
+    EXPECT_FALSE(is_in_view(sensor, near, margin)) << near;
+}
+
+TEST(IsInView, AllRoundThereIsNoEdgeToKeepClearOf) {
+  const ViewMargin margin{0.2, to_radians(20.0)};
+  EXPECT_TRUE(is_in_view(example_sensor(), at(4.0, 180.0), margin));
+  EXPECT_FALSE(is_in_view(example_sensor(), at(7.9, 180.0), margin));
+}
+
 TEST(IsUsable, TakesRangesUpToTheLimitsThemselves) {
   const LandmarkSensor sensor = example_sensor();
   for (const double range_m : {0.5, 3.0, 8.0}) {
@@ -138,6 +168,10 @@ TEST(LandmarkSensor, DescribesItsKeys) {
   ASSERT_TRUE(schema.set("sensor.yaw_deg", "-90", "test").ok());
   EXPECT_EQ(sensor.yaw_deg, -90.0);
   EXPECT_FALSE(schema.set("sensor.range_sigma_m", "0", "test").ok()) << "S would not be positive definite";
+  EXPECT_EQ(sensor.detection_probability, 0.0) << "what is not reported says nothing, unless it is told";
+  ASSERT_TRUE(schema.set("sensor.detection_probability", "0.95", "test").ok());
+  EXPECT_EQ(sensor.detection_probability, 0.95);
+  EXPECT_FALSE(schema.set("sensor.detection_probability", "1", "test").ok()) << "one miss would rule all out";
 }
 
 }  // namespace

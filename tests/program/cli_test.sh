@@ -35,6 +35,10 @@ refuses 2 'input' run
 refuses 2 'sensor.range_sigma_m' run sim:square -o o --set sensor.range_sigma=1
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 0
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
+refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles -5
+refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 99999999999999999999
+refuses 2 'range-bearing, range or bearing' run sim:square -o o --filter fastslam --observe sonar
+refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
 refuses 2 'observe' run sim:square -o o --observe bearing
@@ -53,6 +57,8 @@ refuses 2 'nowhere.tum' eval nowhere.tum --truth empty
 
 printf 'MATLAB 5.0 MAT-file, broken off' >x.mat
 refuses 2 'x.mat: is no MATLAB file' run x.mat -o o
+{ printf '%-124s' 'MATLAB 5.0 MAT-file, broken off' && printf '\0\001IM\016\0\0\0\377\377\0\0'; } >y.mat
+refuses 2 'y.mat: damaged MATLAB file' run y.mat -o o
 
 # A log, whole and damaged.
 does sim square -o log --seed 3
@@ -76,6 +82,12 @@ grep -q position_rmse_m out.txt || fail 'eval prints no errors'
 does eval whole/trajectory.tum --truth whole/trajectory.tum
 does run sim:square --seed 3 -o memory
 cmp -s whole/trajectory.tum memory/trajectory.tum || fail 'a log from memory gives another path than from disk'
+
+# An observation mode that the log cannot give.
+cp -r log bearings && cut -d, -f1,2,4 log/observations.csv >bearings/observations.csv
+refuses 2 'observe' run bearings -o o --filter fastslam --observe range
+refuses 2 'observe' run bearings -o o --filter fastslam
+does run bearings -o o --filter fastslam --observe bearing
 
 damage() { # damage FILE SED-SCRIPT: a copy of the log in damaged/ with one file changed
   rm -rf damaged partial
@@ -152,6 +164,8 @@ node -e '
 
 # A sweep: mistakes, a table, and going on after it was killed.
 refuses 2 'close keys: fastslam.particles' sweep sim:square -o s --axis particles=1,2
+refuses 2 'unknown key nothing' sweep sim:square -o s --axis nothing=1,2
+refuses 2 'allowed: whole number' sweep sim:square -o s --axis fastslam.particles=0,5
 refuses 2 'nothing varies' sweep sim:square -o s
 refuses 2 'nowhere' sweep nowhere -o s --axis seed=1,2
 refuses 2 'allowed: whole number' sweep sim:square -o s --axis fastslam.particles=10,none

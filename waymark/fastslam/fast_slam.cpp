@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -271,7 +272,7 @@ void FastSlam::associate(std::span<const Observation> observations) {
 void FastSlam::take_match(std::size_t index, int landmark) {
   Landmark& matched = landmarks_[static_cast<std::size_t>(landmark)];
   matched_[index] = landmark;
-  matched.claimed_at_scan = scan_;
+  matched.claimed_before = std::exchange(matched.claimed_at_scan, scan_);
   innovations_[index].landmark = matched.id;
   innovations_[index].outcome = Outcome::kMatched;
 }
@@ -410,14 +411,14 @@ void FastSlam::accept(const Observation& observation, int landmark,
 
 void FastSlam::accept(const kernels::Sighting& sighting, int landmark, double news,
                       const fastslam::InnovationMoments& moments) {
-  const bool one_mode = store_.modes(landmark) == 1;
-  const bool is_taken = one_mode && move_by(sighting, news, moments);
+  const bool may_move = store_.modes(landmark) == 1 && way_since_m(landmark) > kLeastWay_m;
+  const bool is_taken = may_move && move_by(sighting, news, moments);
   const bool shapes = options_.proposal == ProposalKind::kSightings;
   accepted_.push_back({sighting, is_taken ? 0.0 : news, shapes});
 }
 
 /// A sighting of a landmark that comes back, where particles disagree on what they see, moves them; then it
-/// does not weigh them.
+/// does not weigh them. From a robot that has stood since the last sighting none does.
 bool FastSlam::move_by(const kernels::Sighting& sighting, double news, fastslam::InnovationMoments moments) {
   if (news < kLeastNews) return false;
   const double spread_above = options_.move_above * particles_.count() / kParticlesOfMoveAbove;
@@ -445,14 +446,14 @@ void FastSlam::find_edges(std::span<const Observation> observations) {
   if (edge_scans_ == 0 || history_.earlier() <= edge_scans_) return;
   const auto patience = static_cast<std::int64_t>(edge_scans_);
   for (std::size_t k = 0; k < landmarks_.size(); ++k)
-    if (landmarks_[k].range_m > 0.0 && scan_ - landmarks_[k].seen_at_scan == patience)
+    if (landmarks_[k].range_m > 0.0 && scan_ - landmarks_[k].claimed_at_scan == patience)
       add_edge(static_cast<int>(k), landmarks_[k].range_m, edge_scans_);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     const Measured z = *measured(observations[i].value);
     const int landmark = matched_landmark(i);
     if (z.kind == SightingKind::kRange &&
-        scan_ - landmarks_[static_cast<std::size_t>(landmark)].seen_at_scan > patience)
+        scan_ - landmarks_[static_cast<std::size_t>(landmark)].claimed_before > patience)
       add_edge(landmark, z.range_m, 1);
   }
 }
@@ -519,7 +520,7 @@ void FastSlam::weigh() {
 void FastSlam::miss() {
   if (!(sensor_.detection_probability > 0.0)) return;
   for (const int k : unresolved_)
-    if (store_.modes(k) > 1 && landmarks_[static_cast<std::size_t>(k)].seen_at_scan != scan_) miss(k);
+    if (store_.modes(k) > 1 && landmarks_[static_cast<std::size_t>(k)].claimed_at_scan != scan_) miss(k);
 }
 
 void FastSlam::miss(int landmark) {
@@ -590,7 +591,12 @@ void FastSlam::add(std::span<const Observation> observations) {
       place(landmark, z, first.guess);
     index_.assign(innovations_[i].landmark, landmark);
     if (store_.form(landmark) != LandmarkForm::kPoint) unresolved_.push_back(landmark);
-    landmarks_.push_back({innovations_[i].landmark, 1, way_m_, scan_, scan_, range_alone_m(observations[i])});
+    landmarks_.push_back({.id = innovations_[i].landmark,
+                          .observations = 1,
+                          .seen_at_way_m = way_m_,
+                          .seen_at_scan = scan_,
+                          .claimed_at_scan = scan_,
+                          .range_m = range_alone_m(observations[i])});
   }
 }
 

@@ -104,6 +104,7 @@ class FastSlam final : public Filter {
     double seen_at_way_m = 0.0;
     std::int64_t seen_at_scan = 0;
     std::int64_t claimed_at_scan = 0;  // by a sighting, or decided about by each particle for itself
+    std::int64_t claimed_before = 0;   // the scan of the claim before that
     double range_m = 0.0;              // when it was last seen by range alone, else 0
     bool confirmed = true;             // counts in the map
     double existence = 1.0;            // probability of it

@@ -78,6 +78,14 @@ Result<void> route(Event event, const OdometryOptions& odometry, Recording& reco
   return {};
 }
 
+/// Where every observation lacks what the mode asks for, dead reckoning would pass for a result.
+std::optional<Error> find_wrong_mode(const Recording& recording) {
+  if (recording.counts.wrong_kind == 0 || recording.counts.unusable > 0 || !recording.innovations.empty())
+    return std::nullopt;
+  return Error{
+      "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
+}
+
 }  // namespace
 
 Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
@@ -95,6 +103,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   pipeline.finish();
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
+  if (!recording.error) recording.error = find_wrong_mode(recording);
   recording.notes = source.notes();
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
