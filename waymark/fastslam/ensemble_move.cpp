@@ -32,7 +32,8 @@ void EnsembleMove::take_in(const kernels::Sighting& sighting, bool bearing, doub
                            Particles& particles, LandmarkStore& store) {
   list_innovations(sighting, bearing, increment, origin_m, particles);
   noise_ = std::max(variance - innovations_.variance, kLeastNoise * variance) / news;
-  if (!(innovations_.effective >= kLeastEffective && innovations_.variance > 0.0)) return;
+  const bool is_telling = innovations_.effective >= kLeastEffective && innovations_.variance > 0.0;
+  if (!is_telling) return;
   const kernels::MovingPoses poses = particles.moving();
   move_values(poses.x_m, false);
   move_values(poses.y_m, false);

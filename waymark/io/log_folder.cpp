@@ -217,7 +217,7 @@ bool has_identities(const fs::path& file) {
   bool any = false;
   while (table->next()) {
     if (!table->is_empty(1)) return true;
-    for (const int column : {2, 3, 4, 5}) any = any || !table->is_empty(column);
+    for (const std::size_t column : {2U, 3U, 4U, 5U}) any = any || !table->is_empty(column);
   }
   return !any;
 }
