@@ -26,7 +26,9 @@ constexpr double kDepthSigma = 0.2;
 // Pieces of a ray are widened by so much, in variance, that their sum is smooth.
 constexpr double kRayWidening = 3.0;
 // Places on a ray or a ring that are asked whether the landmark can be there.
-constexpr int kCells = 512;
+constexpr int kCells = 1024;
+// Limits of range further apart than this are those of a sensor of which nobody said any.
+constexpr double kMostLimitedRatio = 100.0;
 // What was measured may be wrong by so many standard deviations.
 constexpr double kMargin = 3.0;
 // No landmark is nearer than this to a sensor whose limits do not say.
@@ -250,12 +252,15 @@ class Pieces {
   std::vector<Piece> pieces_;
 };
 
-/// Pieces of a ray in a geometric series of distances, every distance as likely.
+/// Pieces of a ray in a geometric series of distances. Every distance between the limits is as likely; where
+/// those are so far apart that they say nothing, every order of magnitude.
 FirstForm first_ray(const SeenLandmark& seen, const LandmarkSensor& sensor, const ViewHistory& history) {
   constexpr double kRatio = (1.0 + kDepthSigma) / (1.0 - kDepthSigma);
   const double nearest_m = std::max(sensor.min_range_m, kLeastDepth_m);
   const double farthest_m = std::max(sensor.max_range_m, 1.01 * nearest_m);
-  const double steps = std::ceil(std::log(farthest_m / nearest_m) / std::log(kRatio));
+  const double decades = std::log(farthest_m / nearest_m);
+  const bool is_limited = farthest_m / nearest_m < kMostLimitedRatio;
+  const double steps = std::ceil(decades / std::log(kRatio));
   const double count = std::clamp(steps, 1.0, static_cast<double>(kernels::kMaxModes));
   const Eigen::Vector2d direction = direction_of(seen, sensor);
   const ViewMargin margin{0.0, kMargin * std::sqrt(static_cast<double>(seen.R_bb))};
@@ -263,17 +268,17 @@ FirstForm first_ray(const SeenLandmark& seen, const LandmarkSensor& sensor, cons
   double mean_depth_m = 0.0;
   double mass = 0.0;
   for (int k = 0; k < kCells; ++k) {
-    const double depth_m = nearest_m + (k + 0.5) / kCells * (farthest_m - nearest_m);
-    const double likelihood = history.likelihood_unseen(depth_m * direction, margin);
-    const double position = std::log(depth_m / nearest_m) / std::log(farthest_m / nearest_m);
-    pieces.add(static_cast<std::size_t>(position * count), 1.0 / depth_m, likelihood);
+    const double part = (k + 0.5) / kCells;
+    const double depth_m = nearest_m * std::exp(part * decades);
+    const double likelihood =
+        history.likelihood_unseen(depth_m * direction, margin) * (is_limited ? depth_m : 1.0);
+    pieces.add(static_cast<std::size_t>(part * count), 1.0 / depth_m, likelihood);
     mean_depth_m += likelihood * depth_m;
     mass += likelihood;
   }
   mean_depth_m /= mass;
   // The step of the cells and the error of a range, as inverse distances.
-  const double blur_m = std::hypot(sensor.range_sigma_m, (farthest_m - nearest_m) / kCells);
-  const double blur = blur_m / (mean_depth_m * mean_depth_m);
+  const double blur = std::hypot(sensor.range_sigma_m / mean_depth_m, decades / kCells) / mean_depth_m;
   return pieces.form(LandmarkForm::kRay, kRayWidening, blur * blur);
 }
 
