@@ -53,7 +53,7 @@ class EnsembleMoveTest : public testing::Test {
   void see(float range_m, double noise, double news = 1.0) {
     const kernels::Sighting sighting{{SightingKind::kRange, range_m}, {}, store_.view(0, origin_m_)};
     const double spread = robot_x().variance * kCount / (kCount - 1.0);
-    move_.take_in(sighting, false, spread + noise, news, {}, origin_m_, particles_, store_);
+    move_.take_in(sighting, false, spread + noise, news, {}, origin_m_, particles_, calibration_, store_);
   }
 
   /// Over the particles that weigh anything.
@@ -81,6 +81,7 @@ class EnsembleMoveTest : public testing::Test {
   ParticleBlocks blocks_{kCount};
   Particles particles_{kCount, {}};
   LandmarkStore store_{blocks_};
+  RangeCalibration calibration_{{}, 1, blocks_};
   EnsembleMove move_{blocks_};
 };
 

@@ -541,6 +541,26 @@ TEST(FastSlam, WhatASensorDoesNotReportTellsWhereLandmarksAre) {
   EXPECT_LT(mean_error_m(0.95), 0.85 * mean_error_m(0.0));
 }
 
+TEST(FastSlam, FindsOutWhatAllRangesHaveInCommon) {
+  constexpr std::uint64_t kRuns = 5;
+  constexpr double kScale = 1.08;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    LandmarkSensor sensor = world.sensor();
+    sensor.errors.shared_range_sigma_ratio = 0.1;
+    FastSlam filter(with_particles(200), {}, sensor, seed);
+    for (int i = 0; i < 200; ++i) {
+      filter.predict(world.move());
+      std::vector<Observation> scan = world.look();
+      for (Observation& observation : scan) std::get<RangeBearing>(observation.value).range_m *= kScale;
+      filter.correct(scan);
+    }
+    const auto scale = filter.range_calibration().scale(filter.particles().weights());
+    EXPECT_NEAR(scale.mean, kScale, 0.02) << seed;
+    EXPECT_LT(scale.sigma, 0.03) << seed;
+  }
+}
+
 /// Mean error of a landmark on a ring after twelve steps, if it is missed at some of them.
 double error_m_when_missing(std::initializer_list<int> missed) {
   constexpr std::uint64_t kRuns = 20;

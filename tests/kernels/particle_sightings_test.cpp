@@ -134,6 +134,51 @@ TEST_P(ParticleSightings, PlaceAsTheScalarFormulaDoes) {
         [&](ParticleScene& s) { reference::place_landmark(s.sighting, guess, s.poses, s.range()); });
 }
 
+TEST_P(ParticleSightings, EachParticleUnderstandsARangeInItsOwnWay) {
+  for (const Case& c : kCases) {
+    if (c.kind == SightingKind::kBearing) continue;
+    const auto with_errors = [&](ParticleScene& scene, std::vector<float>& offset,
+                                 std::vector<float>& factor) {
+      RandomStream random(7, StreamPurpose::kWorld);
+      for (float& x : offset) x = static_cast<float>(0.2 * random.normal());
+      for (float& x : factor) x = static_cast<float>(1.0 + 0.05 * random.normal());
+      scene.sighting.seen.range_errors = {offset.data(), factor.data()};
+    };
+    std::vector<float> offset(64);
+    std::vector<float> factor(64);
+    compare(
+        c,
+        [&](ParticleScene& s) {
+          with_errors(s, offset, factor);
+          update_landmark(s.sighting, s.poses, 0.7, s.log_weight(), s.range());
+        },
+        [&](ParticleScene& s) {
+          with_errors(s, offset, factor);
+          reference::update_landmark(s.sighting, s.poses, 0.7, s.log_weight(), s.range());
+        });
+  }
+}
+
+TEST_P(ParticleSightings, ARangeOfKnownErrorsIsTheRangeWithoutThem) {
+  for (const Case& c : kCases) {
+    if (c.kind == SightingKind::kBearing) continue;
+    const std::vector<float> offset(64, 0.5F);
+    const std::vector<float> factor(64, 1.0F / 1.25F);
+    compare(
+        c,
+        [&](ParticleScene& s) {
+          s.sighting.seen.range_errors = {offset.data(), factor.data()};
+          s.sighting.seen.range = 0.5F + 1.25F * 5.0F;
+          update_landmark(s.sighting, s.poses, 0.7, s.log_weight(), s.range());
+        },
+        [](ParticleScene& s) {
+          s.sighting.seen.range_errors = {};
+          s.sighting.seen.range = 5.0F;
+          reference::update_landmark(s.sighting, s.poses, 0.7, s.log_weight(), s.range());
+        });
+  }
+}
+
 TEST_P(ParticleSightings, CompareAsTheScalarFormulaDoes) {
   for (const Case& c : kCases)
     for (const std::size_t count : kCounts) {

@@ -29,7 +29,7 @@ EnsembleMove::EnsembleMove(ParticleBlocks& blocks)
 
 void EnsembleMove::take_in(const kernels::Sighting& sighting, bool bearing, double variance, double news,
                            const kernels::Increment& increment, const Eigen::Vector2d& origin_m,
-                           Particles& particles, LandmarkStore& store) {
+                           Particles& particles, RangeCalibration& calibration, LandmarkStore& store) {
   list_innovations(sighting, bearing, increment, origin_m, particles);
   noise_ = std::max(variance - innovations_.variance, kLeastNoise * variance) / news;
   const bool is_telling = innovations_.effective >= kLeastEffective && innovations_.variance > 0.0;
@@ -38,6 +38,11 @@ void EnsembleMove::take_in(const kernels::Sighting& sighting, bool bearing, doub
   move_values(poses.x_m, false);
   move_values(poses.y_m, false);
   move_values(poses.theta_rad, true);
+  if (calibration.is_estimated()) {
+    move_column(calibration.scale(), nullptr);
+    move_column(calibration.offset_m(), nullptr);
+    calibration.refresh();
+  }
   for (int k = 0; k < store.size(); ++k) {
     store.touch(k);
     move_landmark(store.view(k, origin_m));

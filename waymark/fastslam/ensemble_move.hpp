@@ -4,6 +4,7 @@
 #include "waymark/fastslam/landmark_store.hpp"
 #include "waymark/fastslam/particle_blocks.hpp"
 #include "waymark/fastslam/particles.hpp"
+#include "waymark/fastslam/range_calibration.hpp"
 #include "waymark/kernels/particle_sightings.hpp"
 
 namespace waymark::fastslam {
@@ -29,7 +30,7 @@ class EnsembleMove {
   /// be drawn. Of several hypotheses the mean innovation counts. Touches every landmark: O(N landmarks).
   void take_in(const kernels::Sighting& sighting, bool bearing, double variance, double news,
                const kernels::Increment& increment, const Eigen::Vector2d& origin_m, Particles& particles,
-               LandmarkStore& store);
+               RangeCalibration& calibration, LandmarkStore& store);
 
  private:
   /// The innovations of all particles.

@@ -174,6 +174,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       seed_(seed),
       particle_blocks_(options.particles, threads),
       particles_(options.particles, initial.T_world_robot),
+      calibration_(sensor, seed, particle_blocks_),
       store_(particle_blocks_),
       gate_sample_(options.particles),
       move_(particle_blocks_),
@@ -311,8 +312,9 @@ SeenLandmark FastSlam::seen(const Observation& observation, double way_since_m) 
   SeenLandmark seen{z.kind, static_cast<float>(z.range_m), static_cast<float>(std::cos(direction_rad)),
                     static_cast<float>(std::sin(direction_rad))};
   if (z.kind != SightingKind::kBearing)
-    seen.R_rr = variance(0, e.shared_range_sigma_ratio * z.range_m, e.lasting_range_sigma_ratio * z.range_m,
-                         kSharpestSigma * std::max(1.0, z.range_m));
+    seen.R_rr =
+        variance(0, 0.0, e.lasting_range_sigma_ratio * z.range_m, kSharpestSigma * std::max(1.0, z.range_m));
+  seen.range_errors = calibration_.columns();
   if (z.kind != SightingKind::kRange)
     seen.R_bb = variance(z.kind == SightingKind::kBearing ? 0 : 1, to_radians(e.shared_bearing_sigma_deg),
                          to_radians(e.lasting_bearing_sigma_deg), kSharpestSigma);
@@ -430,7 +432,7 @@ bool FastSlam::move_by(const kernels::Sighting& sighting, double news, fastslam:
     if (!(news * moments.spread(k, k) > spread_above * moments.noise(k, k))) continue;
     const bool bearing = kind != SightingKind::kRange && (k == 1 || kind != SightingKind::kRangeBearing);
     move_.take_in(sighting, bearing, moments.covariance()(k, k), news, increment, origin_m, particles_,
-                  store_);
+                  calibration_, store_);
     ++moves_;
     gate_sample_.load(particles_, origin_m);
     moments = gate_sample_.compare(sighting, increment);
@@ -557,6 +559,7 @@ void FastSlam::resample() {
   const double u = RandomStream(seed_, StreamPurpose::kResampling, step_).uniform();
   const auto ancestors = resampling_.choose_ancestors(particles_.weights(), u, next_count());
   particles_.replace_by_ancestors(ancestors, particle_blocks_);
+  calibration_.replace_by_ancestors(ancestors);
   store_.resample(ancestors);
   ++resamplings_;
 }

@@ -88,6 +88,8 @@ class FastSlam final : public Filter {
   [[nodiscard]] const FunctionBlocks& blocks() const override { return table_; }
 
   [[nodiscard]] const fastslam::Particles& particles() const { return particles_; }
+  /// What ranges have in common, as far as the sensor's shared errors say that there is anything to find out.
+  [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return calibration_; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resamplings_; }
   /// How often a sighting moved the particles instead of weighing them.
@@ -189,6 +191,7 @@ class FastSlam final : public Filter {
 
   fastslam::ParticleBlocks particle_blocks_;
   fastslam::Particles particles_;
+  fastslam::RangeCalibration calibration_;
   fastslam::LandmarkStore store_;
   fastslam::GateSample gate_sample_;
   fastslam::EnsembleMove move_;

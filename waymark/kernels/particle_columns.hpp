@@ -98,7 +98,14 @@ enum class SightingKind : std::uint8_t {
   kViewEdge  ///< on an edge of the field of view, the nearer one: where it comes into view or leaves it
 };
 
-/// What was seen, and how unsure that is; what is the same for every particle.
+/// What each particle holds of the errors that all ranges have in common: the range is (measured - offset) *
+/// factor. Null: none.
+struct RangeErrors {
+  const float* offset = nullptr;  ///< m
+  const float* factor = nullptr;  ///< one over the scale
+};
+
+/// What was seen, and how unsure that is; but for errors of range the same for every particle.
 struct SeenLandmark {
   SightingKind kind = SightingKind::kRangeBearing;
   float range = 0.0F;
@@ -107,6 +114,7 @@ struct SeenLandmark {
   float R_rr = 0.0F;
   float R_rb = 0.0F;
   float R_bb = 0.0F;
+  RangeErrors range_errors;
 };
 
 /// Where the sensor sits on the robot and what it can see.

@@ -130,6 +130,13 @@ HWY_INLINE Ray<T> ray_of(T dx, T dy) {
   return {square * inverse_r, inverse_r, dx * inverse_r, dy * inverse_r};
 }
 
+/// The range as a particle understands it.
+template <class T>
+HWY_INLINE T range_of(const SeenLandmark& z, std::size_t i) {
+  if (z.range_errors.offset == nullptr) return T(z.range);
+  return (T(z.range) - load<T>(z.range_errors.offset, i)) * load<T>(z.range_errors.factor, i);
+}
+
 /// A distance measured and a direction measured, both in metres in the frame of the ray (along, across to the
 /// left). In it the derivative by a point landmark is a rotation.
 template <class T>
@@ -140,11 +147,11 @@ struct Look2 {
 };
 
 template <class T>
-HWY_INLINE Look2<T> look_at_point(const SeenLandmark& z, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
+HWY_INLINE Look2<T> look_at_point(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
                                   T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T nu_t = ray.r * bearing_innovation(z, from, ray.ux, ray.uy);
-  return {ray, T(z.range) - ray.r, nu_t, T(z.R_rr), ray.r * T(z.R_rb), ray.r * ray.r * T(z.R_bb)};
+  return {ray, range - ray.r, nu_t, T(z.R_rr), ray.r * T(z.R_rb), ray.r * ray.r * T(z.R_bb)};
 }
 
 /// A symmetric 2x2 matrix in the frame of a ray.
@@ -176,10 +183,10 @@ HWY_INLINE T landmark_variance(const Look1<T>& look, const Gaussian2<T>& m) {
 
 /// The range to a point: z = |d|, derivative by d its direction u.
 template <class T>
-HWY_INLINE Look1<T> look_range(const SeenLandmark& z, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
+HWY_INLINE Look1<T> look_range(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
                                T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
-  return {T(z.range) - ray.r,
+  return {range - ray.r,
           T(z.R_rr),
           ray.ux,
           ray.uy,
@@ -231,11 +238,11 @@ struct RingLook {
 };
 
 template <class T>
-HWY_INLINE RingLook<T> look_across_ring(const SeenLandmark& z, const Sensor<T>& from, const Gaussian2<T>& m,
+HWY_INLINE RingLook<T> look_across_ring(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m,
                                         T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
-  return {{T(z.range) - ray.r, T(z.R_rr), m.b * (ray.uy * phi.cos - ray.ux * phi.sin),
+  return {{range - ray.r, T(z.R_rr), m.b * (ray.uy * phi.cos - ray.ux * phi.sin),
            ray.ux * phi.cos + ray.uy * phi.sin, -ray.ux, -ray.uy, ray.ux * from.arm_y - ray.uy * from.arm_x},
           ray};
 }

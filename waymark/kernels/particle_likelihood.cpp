@@ -34,7 +34,8 @@ HWY_INLINE void list_as(const Sighting& sighting, const Increment& increment, co
     const Pose<T> pose = load_pose<T>(before, i);
     const Sensor<T> from = sensor_of(pose, s.mount);
     const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
-    const Look2<T> look = look_at_point(s.seen, from, m, offset_x, offset_y);
+    const Look2<T> look =
+        look_at_point(s.seen, range_of<T>(s.seen, range.begin + i), from, m, offset_x, offset_y);
     store(condition2(d, rows_of(look, from, pose), look, m).log_likelihood - T(kLogTurn), log_likelihood, i);
   }
 }

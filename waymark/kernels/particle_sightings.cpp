@@ -80,15 +80,17 @@ HWY_INLINE T anchor_y(const LandmarkView& landmark, std::size_t i) {
 struct AtPoint {
   template <class T>
   static HWY_INLINE Look2<T> look(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m,
-                                  std::size_t) {
-    return look_at_point(s.seen, from, m, T(s.landmark.offset_x), T(s.landmark.offset_y));
+                                  std::size_t i) {
+    return look_at_point(s.seen, range_of<T>(s.seen, i), from, m, T(s.landmark.offset_x),
+                         T(s.landmark.offset_y));
   }
 };
 struct RangeOfPoint {
   template <class T>
   static HWY_INLINE Look1<T> look(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m,
-                                  std::size_t) {
-    return look_range(s.seen, from, m, T(s.landmark.offset_x), T(s.landmark.offset_y));
+                                  std::size_t i) {
+    return look_range(s.seen, range_of<T>(s.seen, i), from, m, T(s.landmark.offset_x),
+                      T(s.landmark.offset_y));
   }
 };
 struct BearingOfPoint {
@@ -109,7 +111,9 @@ struct RangeOfRing {
   template <class T>
   static HWY_INLINE Look1<T> look(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m,
                                   std::size_t i) {
-    return look_across_ring(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i)).look;
+    return look_across_ring(s.seen, range_of<T>(s.seen, i), from, m, anchor_x<T>(s.landmark, i),
+                            anchor_y<T>(s.landmark, i))
+        .look;
   }
 };
 
@@ -373,8 +377,9 @@ template <class T, class Way>
 HWY_INLINE T log_possible(const Sighting& s, const Sensor<T>& from, const Gaussian2<T>& m, std::size_t i,
                           Way) {
   if (!std::is_same_v<Way, RangeOfRing> || s.mount.half_view >= 3.14F) return T(0.0F);
-  const Ray<T> ray =
-      look_across_ring(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i)).ray;
+  const Ray<T> ray = look_across_ring(s.seen, range_of<T>(s.seen, i), from, m, anchor_x<T>(s.landmark, i),
+                                      anchor_y<T>(s.landmark, i))
+                         .ray;
   const T across = m.b * ray.inverse_r;
   const T sigma = square_root(m.aa * across * across + T(kViewEdgeVariance));
   const T outside = absolute(off_axis(s.mount, from, ray)) - T(s.mount.half_view);
@@ -494,8 +499,7 @@ HWY_INLINE void miss_range(const Sighting& s, double detected, const PoseColumns
 }
 
 template <class T>
-HWY_INLINE Gaussian2<T> first_point(const SeenLandmark& z, T x, T y, T ux, T uy) {
-  const T r = T(z.range);
+HWY_INLINE Gaussian2<T> first_point(const SeenLandmark& z, T r, T x, T y, T ux, T uy) {
   const T R_aa = T(z.R_rr);
   const T R_at = r * T(z.R_rb);
   const T R_tt = r * r * T(z.R_bb);
@@ -514,8 +518,8 @@ HWY_INLINE void place_modes(const Sighting& s, const FirstGuess& guess, T phi, s
     const LandmarkMode& mode = s.landmark.modes[k];
     const FirstMode& first = guess.modes[k];
     store_gaussian(is_ray ? Gaussian2<T>{phi, T(first.value), T(s.seen.R_bb), T(0.0F), T(first.variance)}
-                          : Gaussian2<T>{phi + T(first.value), T(s.seen.range), T(first.variance), T(0.0F),
-                                         T(s.seen.R_rr)},
+                          : Gaussian2<T>{phi + T(first.value), range_of<T>(s.seen, i), T(first.variance),
+                                         T(0.0F), T(s.seen.R_rr)},
                    mode.gaussian, i);
     if (mode.log_weight != nullptr) store(T(first.log_weight), mode.log_weight, i);
   }
@@ -535,7 +539,7 @@ HWY_INLINE void place_range(const Sighting& s, const FirstGuess& guess, const Po
     const T y = from.y - T(s.landmark.offset_y);
     const SinCos<T> u = direction(from, s.seen.cos_bearing, s.seen.sin_bearing);
     if (s.landmark.form == LandmarkForm::kPoint) {
-      store_gaussian(first_point(s.seen, x, y, u.cos, u.sin), gaussian, i);
+      store_gaussian(first_point(s.seen, range_of<T>(s.seen, i), x, y, u.cos, u.sin), gaussian, i);
       continue;
     }
     store(x, s.landmark.anchor_x, i);

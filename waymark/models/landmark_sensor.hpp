@@ -12,11 +12,15 @@ namespace waymark {
 /// Errors of a sensor that are not drawn anew at every sighting.
 struct SensorErrors {
   double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
+  double shared_range_sigma_m = 0.0;      ///< of an offset of all ranges; the EKF has no state for it
   double shared_bearing_sigma_deg = 0.0;
   double lasting_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
   double lasting_bearing_sigma_deg = 0.0;
   double lasting_way_m = 0.3;  ///< way after which 37 % of that are left
 
+  [[nodiscard]] bool shares_range() const {
+    return shared_range_sigma_ratio > 0.0 || shared_range_sigma_m > 0.0;
+  }
   [[nodiscard]] bool shares() const {
     return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0;
   }
