@@ -70,7 +70,9 @@ void add_run(CLI::App& app, Work& work) {
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
       ->type_name("OUT");
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
-  command->add_option("--observe", request->observe, "part of the observations to use: range-bearing")
+  command
+      ->add_option("--observe", request->observe,
+                   "part of the observations to use: range-bearing, range or bearing")
       ->type_name("KIND");
   command->add_option("--associate", request->associate, "known: by identity; ml: also without one")
       ->type_name("HOW");
