@@ -1,5 +1,6 @@
 #include "waymark/kernels/particle_sightings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -137,15 +138,17 @@ TEST_P(ParticleSightings, PlaceAsTheScalarFormulaDoes) {
 TEST_P(ParticleSightings, EachParticleUnderstandsARangeInItsOwnWay) {
   for (const Case& c : kCases) {
     if (c.kind == SightingKind::kBearing) continue;
-    const auto with_errors = [&](ParticleScene& scene, std::vector<float>& offset,
-                                 std::vector<float>& factor) {
+    const auto with_errors = [](ParticleScene& scene, AlignedArray<float>& offset,
+                                AlignedArray<float>& factor) {
       RandomStream random(7, StreamPurpose::kWorld);
-      for (float& x : offset) x = static_cast<float>(0.2 * random.normal());
-      for (float& x : factor) x = static_cast<float>(1.0 + 0.05 * random.normal());
+      for (std::size_t k = 0; k < offset.size(); ++k) {
+        offset[k] = static_cast<float>(0.2 * random.normal());
+        factor[k] = static_cast<float>(1.0 + 0.05 * random.normal());
+      }
       scene.sighting.seen.range_errors = {offset.data(), factor.data()};
     };
-    std::vector<float> offset(64);
-    std::vector<float> factor(64);
+    AlignedArray<float> offset(64);
+    AlignedArray<float> factor(64);
     compare(
         c,
         [&](ParticleScene& s) {
@@ -162,8 +165,10 @@ TEST_P(ParticleSightings, EachParticleUnderstandsARangeInItsOwnWay) {
 TEST_P(ParticleSightings, ARangeOfKnownErrorsIsTheRangeWithoutThem) {
   for (const Case& c : kCases) {
     if (c.kind == SightingKind::kBearing) continue;
-    const std::vector<float> offset(64, 0.5F);
-    const std::vector<float> factor(64, 1.0F / 1.25F);
+    AlignedArray<float> offset(64);
+    AlignedArray<float> factor(64);
+    std::fill_n(offset.data(), offset.size(), 0.5F);
+    std::fill_n(factor.data(), factor.size(), 1.0F / 1.25F);
     compare(
         c,
         [&](ParticleScene& s) {
