@@ -1,21 +1,19 @@
 #include "figures/forest.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "waymark/core/parallel.hpp"
 #include "waymark/eval/map_error.hpp"
-#include "waymark/eval/median.hpp"
 #include "waymark/report/results.hpp"
 #include "waymark/slam/recording_figures.hpp"
+
+#include "figures/over_runs.hpp"
 
 namespace waymark {
 namespace {
@@ -106,38 +104,20 @@ Pair run_both(const Request& request, int seed) {
   return {keep(*known, sightings, request.sightings), keep(*unknown, sightings, request.sightings)};
 }
 
-double sum(const std::vector<Run>& runs, double Run::*member) {
-  double total = 0.0;
-  for (const Run& each : runs) total += each.*member;
-  return total;
-}
-
-double mean(const std::vector<Run>& runs, double Run::*member) {
-  return sum(runs, member) / static_cast<double>(runs.size());
-}
-
-double median(const std::vector<Run>& runs, double Run::*member) {
-  std::vector<double> values;
-  for (const Run& each : runs) values.push_back(each.*member);
-  return eval::median(values).value_or(NAN);
-}
-
 void print_row(const char* name, const std::vector<Run>& runs) {
-  const auto diverged =
-      std::ranges::count_if(runs, [](const Run& one) { return !(one.rmse_m <= one.dead_reckoning_rmse_m); });
   fmt::print("{:<9}{:>8.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>8.1f}{:>11.2f}{:>9.2f}{:>9.0f}{:>10}\n",
              name, mean(runs, &Run::rmse_m), median(runs, &Run::rmse_m), mean(runs, &Run::aligned_rmse_m),
              median(runs, &Run::aligned_rmse_m), mean(runs, &Run::landmark_rmse_m),
              median(runs, &Run::landmark_rmse_m), median(runs, &Run::nees_median),
              100.0 * sum(runs, &Run::spurious) / sum(runs, &Run::map),
-             100.0 * sum(runs, &Run::missed) / sum(runs, &Run::seen), mean(runs, &Run::step_us), diverged);
+             100.0 * sum(runs, &Run::missed) / sum(runs, &Run::seen), mean(runs, &Run::step_us),
+             count_diverged(runs));
 }
 
 void print_table(const Request& request) {
   std::vector<Run> known(static_cast<std::size_t>(request.seeds));
   std::vector<Run> unknown(known.size());
-  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  team.run(request.seeds, [&](int i) {
+  for_all_runs(request.seeds, [&](int i) {
     const Pair pair = run_both(request, i + 1);
     known[static_cast<std::size_t>(i)] = pair.known;
     unknown[static_cast<std::size_t>(i)] = pair.unknown;

@@ -1,20 +1,16 @@
 #include "figures/observe.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "waymark/core/parallel.hpp"
-#include "waymark/eval/median.hpp"
 #include "waymark/report/results.hpp"
+
+#include "figures/over_runs.hpp"
 
 namespace waymark {
 namespace {
@@ -47,27 +43,11 @@ Run run(const char* mode, int seed, const std::vector<std::string>& settings) {
   return kept;
 }
 
-double mean(const std::vector<Run>& runs, double Run::*member) {
-  double sum = 0.0;
-  for (const Run& each : runs) sum += each.*member;
-  return sum / static_cast<double>(runs.size());
-}
-
-double median(const std::vector<Run>& runs, double Run::*member) {
-  std::vector<double> values;
-  for (const Run& each : runs) values.push_back(each.*member);
-  return eval::median(values).value_or(NAN);
-}
-
-/// Diverged: worse than dead reckoning, or without a result.
-bool is_diverged(const Run& one) { return !(one.rmse_m <= one.dead_reckoning_rmse_m); }
-
 void print_table(const Request& request) {
   const auto seeds = static_cast<std::size_t>(request.seeds);
   std::array<std::vector<Run>, kModes.size()> runs;
   runs.fill(std::vector<Run>(seeds));
-  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  team.run(request.seeds * static_cast<int>(kModes.size()), [&](int job) {
+  for_all_runs(request.seeds * static_cast<int>(kModes.size()), [&](int job) {
     const auto mode = static_cast<std::size_t>(job) % kModes.size();
     const int seed = job / static_cast<int>(kModes.size());
     runs[mode][static_cast<std::size_t>(seed)] = run(kModes[mode], seed + 1, request.settings);
@@ -81,7 +61,7 @@ void print_table(const Request& request) {
                mean(runs[mode], &Run::rmse_m) / mean(runs[0], &Run::rmse_m),
                median(runs[mode], &Run::rmse_m) / median(runs[0], &Run::rmse_m),
                mean(runs[mode], &Run::landmark_rmse_m), median(runs[mode], &Run::landmark_rmse_m),
-               median(runs[mode], &Run::nees_median), std::ranges::count_if(runs[mode], is_diverged));
+               median(runs[mode], &Run::nees_median), count_diverged(runs[mode]));
 }
 
 }  // namespace

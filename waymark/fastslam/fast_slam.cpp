@@ -338,8 +338,8 @@ void FastSlam::compare(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     // What was compared before another sighting moved the particles is compared again.
-    if (moves_ != moves) moments_[i] = compare(observations[i], matched_landmark(i));
-    accept(observations[i], matched_landmark(i), moments_[i]);
+    if (moves_ != moves) moments_[i] = compare(observations[i], matched_[i]);
+    accept(observations[i], matched_[i], moments_[i]);
   }
   for (const EdgeSighting& edge : edges_) accept(edge);
   if (association_) settle_contested(observations);
@@ -356,7 +356,7 @@ kernels::Sighting FastSlam::sighting(const Observation& observation, int landmar
 
 /// NIS of the mixture: mean and covariance of the innovation over all particles.
 void FastSlam::judge(const Observation& observation, std::size_t index) {
-  const int landmark = matched_landmark(index);
+  const int landmark = matched_[index];
   store_.touch(landmark);
   moments_[index] = compare(observation, landmark);
   const Eigen::Vector2d& nu = moments_[index].mean;
@@ -453,7 +453,7 @@ void FastSlam::find_edges(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
     const Measured z = *measured(observations[i].value);
-    const int landmark = matched_landmark(i);
+    const int landmark = matched_[i];
     if (z.kind == SightingKind::kRange &&
         scan_ - landmarks_[static_cast<std::size_t>(landmark)].claimed_before > patience)
       add_edge(landmark, z.range_m, 1);
@@ -490,8 +490,6 @@ void FastSlam::accept(const EdgeSighting& edge) {
   const double nis = moments.mean[0] * moments.mean[0] / moments.covariance()(0, 0);
   if (nis <= gate_.threshold(1)) accept(sighting, edge.landmark, 1.0, moments);
 }
-
-int FastSlam::matched_landmark(std::size_t index) const { return matched_[index]; }
 
 /// 1 for a landmark that comes back after a long way, next to nothing for one that has just been seen.
 double FastSlam::news(int landmark) const {

@@ -177,7 +177,6 @@ class FastSlam final : public Filter {
   [[nodiscard]] double way_since_m(int landmark) const;
   [[nodiscard]] double news(int landmark) const;
   [[nodiscard]] bool any(Outcome outcome) const;
-  [[nodiscard]] int matched_landmark(std::size_t index) const;
   [[nodiscard]] LandmarkEstimate landmark(int index) const;
   [[nodiscard]] std::vector<int> confirmed() const;
   [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot, const std::vector<int>& indices,

@@ -78,6 +78,13 @@ HWY_INLINE Gaussian3<T> load_increment(const IncrementColumns& d, std::size_t i)
           load<T>(d.xt, i), load<T>(d.yy, i), load<T>(d.yt, i), load<T>(d.tt, i)};
 }
 
+/// The increment before anything is seen, about the expected one.
+template <class T>
+HWY_INLINE Gaussian3<T> unseen(const Increment& d) {
+  const T zero = T(0.0F);
+  return {zero, zero, zero, T(d.xx), T(d.xy), T(d.xt), T(d.yy), T(d.yt), T(d.tt)};
+}
+
 template <class T>
 HWY_INLINE void store_increment(const Gaussian3<T>& g, const IncrementColumns& d, std::size_t i) {
   store(g.x, d.x, i);

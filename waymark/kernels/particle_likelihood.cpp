@@ -18,16 +18,7 @@ template <class T>
 HWY_INLINE void list_as(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
                         float* log_likelihood, ParticleRange range) {
   const Sighting s = carried(sighting, increment);
-  const T zero = T(0.0F);
-  const Gaussian3<T> d{zero,
-                       zero,
-                       zero,
-                       T(increment.xx),
-                       T(increment.xy),
-                       T(increment.xt),
-                       T(increment.yy),
-                       T(increment.yt),
-                       T(increment.tt)};
+  const auto d = unseen<T>(increment);
   const T offset_x = T(s.landmark.offset_x);
   const T offset_y = T(s.landmark.offset_y);
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {

@@ -82,8 +82,7 @@ void normals_lanes(const DrawKey& key, float* n0, float* n1, float* n2, std::siz
 }
 
 void fill_lanes(const Increment& d, const IncrementColumns& increments, std::size_t count) {
-  const Lanes zero = 0.0F;
-  const Gaussian3<Lanes> all{zero, zero, zero, d.xx, d.xy, d.xt, d.yy, d.yt, d.tt};
+  const auto all = unseen<Lanes>(d);
   for (std::size_t i = 0; i < count; i += lane_count()) store_increment(all, increments, i);
 }
 

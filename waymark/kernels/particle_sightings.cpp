@@ -230,15 +230,7 @@ HWY_INLINE InnovationSums compare_range(const Sighting& sighting, const Incremen
                                         ParticleRange range) {
   const Sighting s = carried(sighting, increment);
   const T zero = T(0.0F);
-  const Gaussian3<T> d{zero,
-                       zero,
-                       zero,
-                       T(increment.xx),
-                       T(increment.xy),
-                       T(increment.xt),
-                       T(increment.yy),
-                       T(increment.yt),
-                       T(increment.tt)};
+  const auto d = unseen<T>(increment);
   Sums<T> sums{{zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const Pose<T> pose = load_pose<T>(before, i);
