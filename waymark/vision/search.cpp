@@ -103,7 +103,7 @@ void Search::reserve(int width_px, int height_px) {
 }
 
 double Search::expected_windows(const Eigen::Matrix2d& S) const {
-  const double area = kPi * gate_ * std::sqrt(std::max(S.determinant(), 0.0));
+  const double area = kPi * gate_ * std::sqrt(std::max(0.0, S.determinant()));
   return std::min(area, static_cast<double>(options_.max_windows));
 }
 
