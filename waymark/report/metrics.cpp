@@ -140,6 +140,7 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.steps = step_times(recording.steps);
   metrics.blocks = recording.blocks;
   metrics.frames = recording.steps.size();
+  metrics.deadline_misses = deadline_misses(recording);
   metrics.peak_rss_mb = peak_rss_mb();
   metrics.nis_per_dof = nis_per_dof(recording.innovations);
   metrics.truth = truth;

@@ -6,7 +6,10 @@ namespace waymark {
 
 CameraFrontEnd::CameraFrontEnd(PixelSlam& filter, const vision::TrackerOptions& options,
                                const vision::SearchOptions& search, const Camera& camera, int threads)
-    : filter_(filter), camera_(camera), tracker_(options, search, camera, threads) {}
+    : filter_(filter),
+      camera_(camera),
+      on_the_clock_(options.budget.kind == vision::BudgetKind::kClock),
+      tracker_(options, search, camera, threads) {}
 
 bool CameraFrontEnd::fits(const ImageView& image) const {
   return image.width_px == camera_.width_px() && image.height_px == camera_.height_px();
@@ -14,24 +17,38 @@ bool CameraFrontEnd::fits(const ImageView& image) const {
 
 const Correction& CameraFrontEnd::see(const ImageView& image) {
   innovations_.clear();
-  const auto expectations = filter_.expect();
-  tracker_.begin(image, filter_.pose().T_world_robot, expectations);
-  const vision::Sightings landmarks = tracker_.match();
-  // Where nothing at all was found the picture is to blame, not the landmarks: a covered lens, the light out.
-  if (!landmarks.found.empty()) filter_.missed(landmarks.missed);
-  correct(landmarks.found);
-  const vision::Sightings others = tracker_.finish();
-  filter_.missed(others.missed);
-  const Correction& last = correct(others.found);
-  tracker_.learn(last);
-  correction_ = {innovations_, last.removed};
+  begin(image);
+  correct(tracker_.match());
+  correction_ = {innovations_, correct(tracker_.finish()).removed};
+  leave_time();
   return correction_;
 }
 
-const Correction& CameraFrontEnd::correct(std::span<const Observation> found) {
-  const Correction& correction = filter_.correct(found);
+void CameraFrontEnd::begin(const ImageView& image) {
+  const Duration start = thread_cpu_time();
+  const auto expectations = filter_.expect();
+  filter_took_ = thread_cpu_time() - start;
+  tracker_.begin(image, filter_.pose().T_world_robot, expectations);
+}
+
+/// One round.
+const Correction& CameraFrontEnd::correct(const vision::Sightings& sightings) {
+  const Duration start = thread_cpu_time();
+  filter_.missed(sightings.missed);
+  const Correction& correction = filter_.correct(sightings.found);
+  filter_took_ += thread_cpu_time() - start;
   innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
+  tracker_.learn(correction);
   return correction;
+}
+
+/// Where the clock counts the tracker leaves the filter as much time as it took at most of late.
+void CameraFrontEnd::leave_time() {
+  constexpr double kForgotten = 0.02;  // per picture
+  if (!on_the_clock_) return;
+  const auto remembered = std::chrono::duration_cast<Duration>((1.0 - kForgotten) * filter_takes_);
+  filter_takes_ = std::max(filter_took_, remembered);
+  tracker_.leave_time(filter_takes_);
 }
 
 std::vector<FunctionBlocks::Row> CameraFrontEnd::blocks() const {

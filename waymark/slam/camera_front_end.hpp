@@ -26,18 +26,24 @@ class CameraFrontEnd {
   /// What became of everything that was looked for in the last picture.
   [[nodiscard]] std::span<const vision::Look> looks() const { return tracker_.looks(); }
 
+  [[nodiscard]] const vision::TrackerCounts& counts() const { return tracker_.counts(); }
+
   /// Blocks of filter and tracker in one table, by their names. Allocates.
   [[nodiscard]] std::vector<FunctionBlocks::Row> blocks() const;
 
  private:
-  /// One round.
-  const Correction& correct(std::span<const Observation> found);
+  void begin(const ImageView& image);
+  const Correction& correct(const vision::Sightings& sightings);
+  void leave_time();
 
   PixelSlam& filter_;
   Camera camera_;
+  bool on_the_clock_;
   vision::Tracker tracker_;
   std::vector<Innovation> innovations_;
   Correction correction_;
+  Duration filter_took_{0};  ///< in this picture
+  Duration filter_takes_{0};
 };
 
 }  // namespace waymark

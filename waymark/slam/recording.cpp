@@ -93,6 +93,17 @@ std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe
       "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
 }
 
+void finish_pictures(Recording& recording, const Config& config, const CameraFrontEnd& front_end) {
+  recording.frame_budget = duration_from_seconds(1e-3 * config.tracker.budget.per_frame_ms);
+  const vision::TrackerCounts& counts = front_end.counts();
+  if (counts.unusable > 0)
+    recording.notes.push_back(
+        fmt::format("{} pictures show nothing: black, white or covered", counts.unusable));
+  if (counts.out_of_budget > 0)
+    recording.notes.push_back(
+        fmt::format("{} pictures in which something was left out for want of time", counts.out_of_budget));
+}
+
 std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const CameraFrontEnd* front_end) {
   if (front_end != nullptr) return front_end->blocks();
   const auto rows = filter.blocks().rows();
@@ -121,6 +132,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.blocks = blocks_of(*recording.filter, front_end.get());
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();
+  if (front_end) finish_pictures(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;

@@ -31,6 +31,7 @@ struct Recording {
   std::vector<TimedCost> steps;
   std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into pictures for it
   FilmStrip film;
+  std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
   std::vector<std::string> notes;  ///< what was skipped or odd, one line each
   Duration wall{0};
