@@ -72,7 +72,8 @@ void add_run(CLI::App& app, Work& work) {
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
   command
       ->add_option("--observe", request->observe,
-                   "part of the observations to use: range-bearing, range or bearing")
+                   "part of the observations to use: range-bearing, range, bearing or pixel (corners in "
+                   "images); default what the log offers")
       ->type_name("KIND");
   command->add_option("--associate", request->associate, "known: by identity; ml: also without one")
       ->type_name("HOW");
@@ -85,6 +86,7 @@ void add_run(CLI::App& app, Work& work) {
       "Examples:\n"
       "  waymark run LOG -o out\n"
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
+      "  waymark run sim:room --observe pixel -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
       "report.html.");

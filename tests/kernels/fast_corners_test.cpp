@@ -47,6 +47,11 @@ TEST_P(FastCorners, ScoresAreThoseOfThePlainTestAtEveryArcAndCount) {
         }
         EXPECT_EQ(any, expected_any);
         EXPECT_EQ(scores.back(), 99);
+        std::vector<std::uint8_t> plain(scores.size(), 99);
+        EXPECT_EQ(fast_scores_by(Instructions::kScalar)(
+                      first, image.stride(), static_cast<std::size_t>(count), threshold, arc, plain.data()),
+                  any);
+        EXPECT_EQ(plain, scores);
       }
     }
   }

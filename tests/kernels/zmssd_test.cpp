@@ -40,6 +40,10 @@ class Zmssd : public test::OnEveryInstructionSet {
       }
     }
     EXPECT_EQ(scores.back(), 12345U) << "written behind the last score";
+    std::vector<std::uint32_t> plain(windows + 1, 12345U);
+    zmssd_search_by(Instructions::kScalar)(make_zmssd_patch(patch.data(), size, size), image.data(),
+                                           image.stride(), rows.data(), rows.size(), plain.data());
+    EXPECT_EQ(plain, scores);
   }
 
   int draw(int low, int high) { return static_cast<int>(random_.uniform(low, high + 1)); }

@@ -71,6 +71,16 @@ TEST(Config, ALogWithoutIdentitiesAsksForAssociationUnlessTheUserSaysOtherwise) 
   EXPECT_EQ(associate({"associate=known"}), Association::kKnown);
 }
 
+TEST(Config, ALogOfImagesIsObservedByPixelsUnlessTheUserSaysOtherwise) {
+  const auto observe = [](const std::string& input, const std::vector<std::string>& assignments) {
+    const auto opened = open_input(input, {{}, assignments});
+    return opened.ok() ? std::optional(opened->config.observe) : std::nullopt;
+  };
+  EXPECT_EQ(observe("sim:room", {}), Observe::kPixel);
+  EXPECT_EQ(observe("sim:room", {"observe=bearing"}), Observe::kBearing);
+  EXPECT_EQ(observe("sim:square", {}), Observe::kRangeBearing);
+}
+
 TEST(Config, AnUnknownScenarioNamesTheNearest) {
   const auto opened = open_input("sim:sqare", {});
   ASSERT_FALSE(opened.ok());

@@ -85,6 +85,19 @@ TEST(MakeFilter, RefusesAnAssociationThatDoesNotFit) {
   EXPECT_NE(range.error().message.find("associate=known"), std::string::npos) << range.error().message;
 }
 
+TEST(MakeFilter, SaysThatParticlesTakeNoPixels) {
+  const auto run = record_study({"observe=pixel", "filter=fastslam"});
+  ASSERT_FALSE(run.ok());
+  EXPECT_NE(run.error().message.find("filter=ekf"), std::string::npos) << run.error().message;
+}
+
+TEST(Recording, PixelsThatALogDoesNotHaveEndTheRun) {
+  const auto run = record_study({"observe=pixel"});
+  ASSERT_TRUE(run.ok());
+  ASSERT_TRUE(run->error.has_value());
+  EXPECT_NE(run->error->message.find("observe"), std::string::npos);
+}
+
 TEST(MakeFilter, RefusesAModeThatTheFilterDoesNotHave) {
   const auto run = record_study({"observe=bearing"});
   ASSERT_FALSE(run.ok());

@@ -209,17 +209,27 @@ Result<void> read_landmarks(const fs::path& file, LogInfo& info) {
   return {};
 }
 
-/// Whether some sighting says what it is of, or there is none. Reads as far as it takes to find one.
-bool has_identities(const fs::path& file) {
-  if (!fs::exists(file)) return true;
+/// What the rows of observations.csv have, read as far as the first that says what it is of.
+struct Sighted {
+  bool named = false;
+  bool polar = false;
+  bool pixel = false;
+};
+
+Sighted look_at_sightings(const fs::path& file) {
+  Sighted sighted;
+  if (!fs::exists(file)) return sighted;
   auto table = TextTable::open(file, layout_of(log_format::kObservations));
-  if (!table) return true;
-  bool any = false;
-  while (table->next()) {
-    if (!table->is_empty(1)) return true;
-    for (const std::size_t column : {2U, 3U, 4U, 5U}) any = any || !table->is_empty(column);
+  while (table && !sighted.named && table->next()) {
+    sighted.named = !table->is_empty(1);
+    sighted.polar = sighted.polar || !table->is_empty(2) || !table->is_empty(3);
+    sighted.pixel = sighted.pixel || !table->is_empty(4) || !table->is_empty(5);
   }
-  return !any;
+  return sighted;
+}
+
+bool has_pictures(const fs::path& folder) {
+  return fs::exists(folder / log_format::kImages.file) && fs::exists(folder / log_format::kCameraFile);
 }
 
 /// The first picture of the log that there is.
@@ -285,11 +295,13 @@ bool is_log_folder(const fs::path& folder) {
 }
 
 Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
+  const Sighted sighted = look_at_sightings(folder / log_format::kObservations.file);
   LogInfo info{.name = base_name(folder),
                .format = "log folder",
                .settings = {},
                .landmarks = {},
-               .identities = has_identities(folder / log_format::kObservations.file),
+               .identities = sighted.named || !(sighted.polar || sighted.pixel),
+               .only_pixels = !sighted.polar && (sighted.pixel || has_pictures(folder)),
                .truth_sensor_m = {}};
   if (auto done = read_camera(folder, info); !done) return done.error();
   if (auto done = read_info(folder, info); !done) return done.error();

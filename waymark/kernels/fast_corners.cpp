@@ -102,14 +102,7 @@ bool score_row(const std::uint8_t* first, std::ptrdiff_t stride, std::size_t cou
                std::uint8_t* scores) {
   const Circle circle(stride);
   const std::size_t lanes = hn::Lanes(kTag);
-  if (count < lanes) {
-    bool any = false;
-    for (std::size_t k = 0; k < count; ++k) {
-      scores[k] = reference::fast_score(first + k, stride, threshold, kArc);
-      any |= scores[k] != 0;
-    }
-    return any;
-  }
+  if (count < lanes) return reference::fast_scores(first, stride, count, threshold, kArc, scores);
   const Bytes least = hn::Set(kTag, threshold);
   Bytes any = hn::Zero(kTag);
   // The last vector overlaps the one before it.
@@ -205,6 +198,25 @@ std::uint8_t fast_score(const std::uint8_t* pixel, std::ptrdiff_t stride, std::u
     margin = std::max({margin, brighter, darker});
   }
   return margin > threshold ? static_cast<std::uint8_t>(margin - 1) : std::uint8_t{0};
+}
+
+bool fast_scores(const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count, std::uint8_t threshold,
+                 int arc, std::uint8_t* scores) {
+  const Circle circle(stride);
+  const int least = arc / 4;  // pixels of the compass in an arc
+  bool any = false;
+  for (const std::uint8_t* pixel = first; pixel < first + count; ++pixel, ++scores) {
+    int brighter = 0, darker = 0;
+    for (int k = 0; k < 16; k += 4) {
+      const int difference = pixel[circle.at[k]] - *pixel;
+      brighter += difference > threshold;
+      darker += difference < -threshold;
+    }
+    *scores =
+        std::max(brighter, darker) < least ? std::uint8_t{0} : fast_score(pixel, stride, threshold, arc);
+    any |= *scores != 0;
+  }
+  return any;
 }
 
 }  // namespace reference

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "waymark/kernels/instructions.hpp"
+
 namespace waymark::kernels {
 
 /// Pixels around a corner candidate that its test looks at: a circle of radius 3.
@@ -27,5 +29,16 @@ namespace reference {
 [[nodiscard]] std::uint8_t fast_score(const std::uint8_t* pixel, std::ptrdiff_t stride,
                                       std::uint8_t threshold, int arc);
 
+/// fast_scores() pixel by pixel. The four pixels of the compass come first, as in Rosten and Drummond's own
+/// test: an arc of twelve holds three of them, one of nine two.
+bool fast_scores(const std::uint8_t* first, std::ptrdiff_t stride, std::size_t count, std::uint8_t threshold,
+                 int arc, std::uint8_t* scores);
+
 }  // namespace reference
+
+using FastScores = decltype(&fast_scores);
+[[nodiscard]] inline FastScores fast_scores_by(Instructions instructions) {
+  return instructions == Instructions::kScalar ? reference::fast_scores : fast_scores;
+}
+
 }  // namespace waymark::kernels

@@ -32,13 +32,7 @@ namespace waymark::kernels::HWY_NAMESPACE {
 
 void search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride, const WindowRow* rows,
             std::size_t row_count, std::uint32_t* scores) {
-  std::uint8_t plain[kMaxPatchSize * kMaxPatchSize];
-  for (int r = 0; r < patch.size; ++r)
-    for (int c = 0; c < patch.size; ++c)
-      plain[r * patch.size + c] = static_cast<std::uint8_t>(patch_pixel(patch, r, c));
-  for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
-    for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
-      *scores++ = reference::zmssd(plain, patch.size, pixels + u, stride, patch.size);
+  reference::zmssd_search(patch, pixels, stride, rows, row_count, scores);
 }
 
 #else
@@ -305,6 +299,17 @@ std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride, cons
     }
   }
   return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
+}
+
+void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                  const WindowRow* rows, std::size_t row_count, std::uint32_t* scores) {
+  std::uint8_t plain[kMaxPatchSize * kMaxPatchSize];
+  for (int r = 0; r < patch.size; ++r)
+    for (int c = 0; c < patch.size; ++c)
+      plain[r * patch.size + c] = static_cast<std::uint8_t>(patch_pixel(patch, r, c));
+  for (std::size_t k = 0; k < row_count; ++k, pixels += stride)
+    for (int u = rows[k].first; u < rows[k].first + rows[k].count; ++u)
+      *scores++ = zmssd(plain, patch.size, pixels + u, stride, patch.size);
 }
 
 }  // namespace reference

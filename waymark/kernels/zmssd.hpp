@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "waymark/kernels/instructions.hpp"
+
 namespace waymark::kernels {
 
 inline constexpr int kMinPatchSize = 8;
@@ -49,5 +51,15 @@ namespace reference {
 [[nodiscard]] std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
                                   const std::uint8_t* window, std::ptrdiff_t window_stride, int size);
 
+/// zmssd_search() by the plain formula.
+void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,
+                  const WindowRow* rows, std::size_t row_count, std::uint32_t* scores);
+
 }  // namespace reference
+
+using ZmssdSearch = decltype(&zmssd_search);
+[[nodiscard]] inline ZmssdSearch zmssd_search_by(Instructions instructions) {
+  return instructions == Instructions::kScalar ? reference::zmssd_search : zmssd_search;
+}
+
 }  // namespace waymark::kernels

@@ -138,9 +138,9 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.wall_s = to_seconds(recording.wall);
   metrics.realtime_factor = metrics.wall_s > 0.0 ? metrics.duration_s / metrics.wall_s : 0.0;
   metrics.steps = step_times(recording.steps);
-  const auto rows = recording.filter->blocks().rows();
-  metrics.blocks.assign(rows.begin(), rows.end());
+  metrics.blocks = recording.blocks;
   metrics.frames = recording.steps.size();
+  metrics.deadline_misses = deadline_misses(recording);
   metrics.peak_rss_mb = peak_rss_mb();
   metrics.nis_per_dof = nis_per_dof(recording.innovations);
   metrics.truth = truth;

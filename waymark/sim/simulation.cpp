@@ -161,15 +161,21 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   if (auto size = check_size(path, options); !size) return size.error();
 
   const Drive driven = drive(path, options, seed);
-  LogInfo info{std::move(name),           "simulation",
-               settings_of(options),      place_landmarks(options.world, path, seed),
-               options.sensor.identities, {}};
+  LogInfo info{std::move(name),
+               "simulation",
+               settings_of(options),
+               place_landmarks(options.world, path, seed),
+               options.sensor.identities,
+               false,
+               {}};
   std::vector<Event> events;
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);
   add_truth(events, driven, options.truth);
   std::unique_ptr<Film> film;
   if (has_images(options)) {
+    info.only_pixels = std::ranges::none_of(
+        events, [](const Event& event) { return std::holds_alternative<Observations>(event.content); });
     film = std::make_unique<Film>(options.film, build_scene(options.room, path, seed), driven, seed, threads);
     add_images(events, *film);
   }

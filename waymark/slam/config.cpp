@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "waymark/io/image_loader.hpp"
 #include "waymark/sim/simulation.hpp"
 
 namespace waymark {
@@ -20,6 +21,8 @@ Result<void> apply(Schema& schema, const UserSettings& user) {
 Result<void> apply(Schema& schema, const LogInfo& log) {
   if (!log.identities)
     if (auto done = schema.set("associate", "ml", log.name); !done) return done;
+  if (log.only_pixels)
+    if (auto done = schema.set("observe", "pixel", log.name); !done) return done;
   for (const auto& [key, value] : log.settings)
     if (auto done = schema.set(key, value, log.name); !done) return done;
   return {};
@@ -38,8 +41,9 @@ Result<std::unique_ptr<Source>> open(const std::string& input, const UserSetting
 Schema describe(Config& config) {
   Schema schema;
   schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
-  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing"},
-                "which part of the observations is used");
+  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel"},
+                "which part of the observations is used; pixel: natural corners in images, or given pixels; "
+                "the default is what the log offers");
   schema.choice("associate", config.associate, {"known", "ml"},
                 "how observations find their landmarks: by identity alone, or without one by maximum "
                 "likelihood; the default is what the log allows");
@@ -53,6 +57,9 @@ Schema describe(Config& config) {
   describe(schema, config.gate);
   describe(schema, config.association);
   describe(schema, config.ekf);
+  describe(schema, config.pixel);
+  describe(schema, config.tracker);
+  describe(schema, config.search);
   describe(schema, config.fastslam);
   sim::describe(schema, config.sim);
   return schema;
@@ -86,6 +93,7 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   Schema schema = describe(config);
   if (auto done = apply(schema, (*source)->info()); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
+  if (config.observe == Observe::kPixel) *source = std::make_unique<ImageLoader>(std::move(*source));
   return OpenedInput{std::move(*source), config};
 }
 

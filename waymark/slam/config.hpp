@@ -11,6 +11,7 @@
 #include "waymark/core/config.hpp"
 #include "waymark/core/source.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
+#include "waymark/ekf/pixel_slam.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 #include "waymark/io/open_source.hpp"
 #include "waymark/models/camera.hpp"
@@ -18,6 +19,8 @@
 #include "waymark/models/odometry.hpp"
 #include "waymark/sim/options.hpp"
 #include "waymark/slam/pipeline.hpp"
+#include "waymark/vision/search.hpp"
+#include "waymark/vision/tracker.hpp"
 
 namespace waymark {
 
@@ -43,6 +46,9 @@ struct Config {
   GateOptions gate;
   AssociationOptions association;
   EkfOptions ekf;
+  PixelSlamOptions pixel;
+  vision::TrackerOptions tracker;
+  vision::SearchOptions search;
   FastSlamOptions fastslam;
   sim::SimOptions sim;
 };
@@ -63,7 +69,7 @@ struct OpenedInput {
 };
 
 /// Opens a log folder, a data set or `sim:SCENARIO`, and settles the config: defaults, then what the log
-/// knows about its robot, then what the user says.
+/// knows about its robot, then what the user says. Where images are observed they come with their pixels.
 [[nodiscard]] Result<OpenedInput> open_input(const std::string& input, const UserSettings& user);
 
 /// The config alone: defaults, then what the user says.

@@ -1,26 +1,48 @@
 #include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
+namespace {
+
+Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
+  if (config.associate != Association::kKnown)
+    return Error{"associate: the EKF needs identities so far; sightings without: filter=fastslam"};
+  switch (config.observe) {
+    case Observe::kRangeBearing:
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(
+          config.ekf, config.gate, config.sensor.T_robot_sensor(), config.threads, config.sensor.errors));
+    case Observe::kPixel:
+      return std::unique_ptr<Filter>(std::make_unique<PixelSlam>(config.pixel, config.gate, config.camera));
+    case Observe::kRange:
+    case Observe::kBearing:
+      return Error{
+          "observe: the EKF takes range-bearing and pixel so far; range or bearing alone: filter=fastslam"};
+  }
+  return Error{"observe: unknown"};
+}
+
+Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
+  if (config.observe == Observe::kPixel)
+    return Error{"filter: fastslam does not take pixels; filter=ekf does, or choose another observe"};
+  const bool by_likelihood = config.associate == Association::kMl;
+  if (by_likelihood && config.observe != Observe::kRangeBearing)
+    return Error{
+        "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
+  return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
+      config.fastslam, config.gate, config.sensor, config.seed, config.threads, PoseEstimate{},
+      by_likelihood ? std::optional(config.association) : std::nullopt));
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
-  const Pose2 T_robot_sensor = config.sensor.T_robot_sensor();
-  switch (config.filter) {
-    case FilterKind::kEkf:
-      if (config.observe != Observe::kRangeBearing)
-        return Error{"observe: the EKF takes range-bearing so far; range or bearing alone: filter=fastslam"};
-      if (config.associate != Association::kKnown)
-        return Error{"associate: the EKF needs identities so far; sightings without: filter=fastslam"};
-      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate, T_robot_sensor,
-                                                               config.threads, config.sensor.errors));
-    case FilterKind::kFastSlam:
-      if (config.associate == Association::kMl && config.observe != Observe::kRangeBearing)
-        return Error{
-            "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
-      return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
-          config.fastslam, config.gate, config.sensor, config.seed, config.threads, PoseEstimate{},
-          config.associate == Association::kMl ? std::optional(config.association) : std::nullopt));
-  }
-  return Error{"filter: unknown"};
+  return config.filter == FilterKind::kEkf ? make_ekf(config) : make_fastslam(config);
+}
+
+std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter) {
+  auto* pixels = dynamic_cast<PixelSlam*>(&filter);
+  if (pixels == nullptr) return nullptr;
+  return std::make_unique<CameraFrontEnd>(*pixels, config.tracker, config.search, Camera(config.camera),
+                                          config.threads);
 }
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }

@@ -3,12 +3,16 @@
 #include <memory>
 
 #include "waymark/core/filter.hpp"
+#include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/config.hpp"
 
 namespace waymark {
 
 /// The filter that the config asks for, at the origin and sure of it.
 [[nodiscard]] Result<std::unique_ptr<Filter>> make_filter(const Config& config);
+
+/// What looks into pictures for a filter over pixels, which must outlive it; null for any other filter.
+[[nodiscard]] std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter);
 
 [[nodiscard]] const char* filter_name(FilterKind kind);
 

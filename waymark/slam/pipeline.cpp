@@ -19,6 +19,8 @@ std::optional<Measurement> part(const Measurement& value, Observe observe) {
     case Observe::kBearing:
       if (both != nullptr) return Bearing{both->bearing_rad};
       return std::holds_alternative<Bearing>(value) ? std::optional(value) : std::nullopt;
+    case Observe::kPixel:
+      return std::holds_alternative<Pixel>(value) ? std::optional(value) : std::nullopt;
   }
   return std::nullopt;
 }
@@ -42,18 +44,19 @@ void describe(Schema& schema, PipelineOptions& options) {
 }
 
 Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-                   const LandmarkSensor& sensor, Observe observe, Sink sink)
+                   const LandmarkSensor& sensor, Observe observe, Sink sink, CameraFrontEnd* front_end)
     : filter_(filter),
       sensor_(sensor),
       observe_(observe),
       sink_(std::move(sink)),
+      front_end_(front_end),
       odometer_(odometry, options.max_hold_s),
       window_(duration_from_seconds(options.reorder_window_s)),
       delay_(duration_from_seconds(sensor.delay_s)),
       response_(duration_from_seconds(odometry.response_s)) {}
 
 void Pipeline::push(Event event) {
-  const bool observed = std::holds_alternative<Observations>(event.content);
+  const bool observed = is_observed(event.content);
   if (!observed && !is_odometry(event.content)) return;
   event.stamp = observed ? event.stamp - delay_ : event.stamp + response_;
   ++counts_.events;
@@ -63,6 +66,11 @@ void Pipeline::push(Event event) {
   }
   insert(std::move(event));
   while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
+}
+
+bool Pipeline::is_observed(const EventContent& content) const {
+  return std::holds_alternative<Observations>(content) ||
+         (front_end_ != nullptr && std::holds_alternative<Image>(content));
 }
 
 void Pipeline::finish() {
@@ -91,17 +99,33 @@ void Pipeline::process_front_group() {
     const Event& event = waiting_.front();
     if (const auto* observations = std::get_if<Observations>(&event.content)) {
       collect(*observations);
+    } else if (const auto* image = std::get_if<Image>(&event.content)) {
+      take(*image);
     } else {
       odometry_seen_ = true;
       counts_.other_odometry += odometer_.add(event) ? 0 : 1;
     }
   }
-  const Correction* correction = batch_.empty() ? nullptr : &filter_.correct(batch_);
-  Step step{stamp, filter_.pose(), dead_reckoning_, correction, {}};
+  const Correction* correction = correct();
+  Step step{stamp, filter_.pose(), dead_reckoning_, correction, picture_.get(), {}};
   cpu_since_correction_ += thread_cpu_time() - start;
   if (correction != nullptr) step.cpu = std::exchange(cpu_since_correction_, Duration{0});
   processed_ = stamp;
   sink_(step);
+  if (picture_) last_picture_ = std::exchange(picture_, nullptr);
+}
+
+/// Pixels that come as observations are a front end's work done elsewhere: they go before a picture.
+const Correction* Pipeline::correct() {
+  if (!batch_.empty()) {
+    picture_.reset();
+    return &filter_.correct(batch_);
+  }
+  if (!picture_) return nullptr;
+  ++counts_.pictures;
+  const Correction& correction = front_end_->see(*picture_);
+  counts_.observations += std::ssize(correction.innovations);
+  return &correction;
 }
 
 void Pipeline::predict(Stamp stamp) {
@@ -126,6 +150,18 @@ void Pipeline::collect(const Observations& observations) {
           observation.covariance ? part_covariance(observation, *used) : noise_covariance(sensor_, *used);
       batch_.push_back({observation.id, *used, R});
     }
+  }
+}
+
+/// A camera that hangs gives one picture again and again, under new stamps: believing it would stop the
+/// robot.
+void Pipeline::take(const Image& image) {
+  if (!image.pixels || !front_end_->fits(*image.pixels)) {
+    ++counts_.misfits;
+  } else if (picture_ || (last_picture_ && *last_picture_ == *image.pixels)) {
+    ++counts_.repeats;
+  } else {
+    picture_ = image.pixels;
   }
 }
 

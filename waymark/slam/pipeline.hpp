@@ -2,17 +2,19 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "waymark/core/event.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/models/landmark_sensor.hpp"
+#include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/odometer.hpp"
 
 namespace waymark {
 
 /// Which part of what the log holds is used.
-enum class Observe { kRangeBearing, kRange, kBearing };
+enum class Observe { kRangeBearing, kRange, kBearing, kPixel };
 
 struct PipelineOptions {
   double reorder_window_s = 0.5;  ///< how late an event may arrive and still be put in its place
@@ -27,6 +29,7 @@ struct Step {
   PoseEstimate pose;
   Pose2 dead_reckoning;                    ///< the odometry alone, from the origin
   const Correction* correction = nullptr;  ///< null: nothing was observed. Valid during the call only.
+  const GreyImage* picture = nullptr;      ///< what the front end looked into, if anything. Likewise.
   Duration cpu{0};                         ///< of this thread in the filter since the last correction
 };
 
@@ -39,18 +42,24 @@ struct PipelineCounts {
   std::int64_t wrong_kind = 0;       ///< lacks what --observe asks for
   std::int64_t other_odometry = 0;   ///< of a second kind
   std::int64_t before_odometry = 0;  ///< observed before the first odometry: used, at the start pose
+  std::int64_t pictures = 0;         ///< looked into
+  std::int64_t misfits = 0;          ///< pictures without pixels or of another size than the camera's
+  std::int64_t repeats = 0;          ///< pictures with the stamp or all the pixels of the one before
   int odometry_gaps = 0;
 };
 
 /// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
 /// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events may arrive
-/// late by up to the reordering window. Images and truth are not its business and are ignored.
+/// late by up to the reordering window. Pictures go to the front end where there is one; a picture that
+/// shows what cannot be, or nothing new, is passed over and the robot goes on by dead reckoning. Truth is not
+/// its business and is ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;
 
+  /// `front_end` looks into pictures for this filter; null: pictures are ignored.
   Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-           const LandmarkSensor& sensor, Observe observe, Sink sink);
+           const LandmarkSensor& sensor, Observe observe, Sink sink, CameraFrontEnd* front_end = nullptr);
 
   void push(Event event);
   /// Processes what is still waiting.
@@ -63,12 +72,16 @@ class Pipeline {
   void process_front_group();
   void predict(Stamp stamp);
   void collect(const Observations& observations);
+  void take(const Image& image);
+  [[nodiscard]] const Correction* correct();
+  [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;
 
   Filter& filter_;
   LandmarkSensor sensor_;
   Observe observe_;
   Sink sink_;
+  CameraFrontEnd* front_end_;
   Odometer odometer_;
   Duration window_;
   Duration delay_;
@@ -77,6 +90,8 @@ class Pipeline {
   std::deque<Event> waiting_;  // by stamp
   std::optional<Stamp> processed_;
   std::vector<Observation> batch_;
+  std::shared_ptr<const GreyImage> picture_;  // of the stamp that is being processed
+  std::shared_ptr<const GreyImage> last_picture_;
   Pose2 dead_reckoning_;
   Duration cpu_since_correction_{0};
   bool odometry_seen_ = false;

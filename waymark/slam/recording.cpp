@@ -20,6 +20,8 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
   note(counts.unusable, "observations dropped: not finite or outside the sensor's range limits");
   note(counts.wrong_kind, "observations dropped: they lack what `observe` asks for");
   note(counts.other_odometry, "odometry events ignored: of a second kind");
+  note(counts.misfits, "pictures skipped: another size than camera.width_px x camera.height_px");
+  note(counts.repeats, "pictures skipped: the stamp or every pixel of the one before");
   note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
   return lines;
 }
@@ -37,10 +39,11 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
 }
 
 /// Keeps what the pipeline reports.
-void keep(Recording& recording, const Step& step) {
+void keep(Recording& recording, const Step& step, const CameraFrontEnd* front_end) {
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
+  if (step.picture != nullptr) recording.film.add(step.stamp, *step.picture, front_end->looks());
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)
     recording.innovations.push_back({step.stamp, innovation});
@@ -79,11 +82,32 @@ Result<void> route(Event event, const OdometryOptions& odometry, Recording& reco
 }
 
 /// Where every observation lacks what the mode asks for, dead reckoning would pass for a result.
-std::optional<Error> find_wrong_mode(const Recording& recording) {
+std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe) {
+  if (observe == Observe::kPixel && recording.counts.pictures == 0 && recording.innovations.empty())
+    return Error{
+        "observe: this log has no picture and no pixel observation that can be used; `waymark check` lists "
+        "what it has"};
   if (recording.counts.wrong_kind == 0 || recording.counts.unusable > 0 || !recording.innovations.empty())
     return std::nullopt;
   return Error{
       "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
+}
+
+void finish_pictures(Recording& recording, const Config& config, const CameraFrontEnd& front_end) {
+  recording.frame_budget = duration_from_seconds(1e-3 * config.tracker.budget.per_frame_ms);
+  const vision::TrackerCounts& counts = front_end.counts();
+  if (counts.unusable > 0)
+    recording.notes.push_back(
+        fmt::format("{} pictures show nothing: black, white or covered", counts.unusable));
+  if (counts.out_of_budget > 0)
+    recording.notes.push_back(
+        fmt::format("{} pictures in which something was left out for want of time", counts.out_of_budget));
+}
+
+std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const CameraFrontEnd* front_end) {
+  if (front_end != nullptr) return front_end->blocks();
+  const auto rows = filter.blocks().rows();
+  return {rows.begin(), rows.end()};
 }
 
 }  // namespace
@@ -94,8 +118,10 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   if (!filter) return filter.error();
   Recording recording;
   recording.filter = std::move(*filter);
-  Pipeline pipeline(*recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
-                    [&recording](const Step& step) { keep(recording, step); });
+  const auto front_end = make_front_end(config, *recording.filter);
+  Pipeline pipeline(
+      *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
+      [&](const Step& step) { keep(recording, step, front_end.get()); }, front_end.get());
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
     return route(std::move(event), config.odometry, recording, pipeline);
@@ -103,8 +129,10 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   pipeline.finish();
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
-  if (!recording.error) recording.error = find_wrong_mode(recording);
+  recording.blocks = blocks_of(*recording.filter, front_end.get());
+  if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();
+  if (front_end) finish_pictures(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;

@@ -9,6 +9,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/core/trajectory.hpp"
 #include "waymark/slam/config.hpp"
+#include "waymark/slam/film_strip.hpp"
 
 namespace waymark {
 
@@ -28,6 +29,9 @@ struct Recording {
   std::vector<std::pair<Stamp, Truth>> truth;
   std::vector<TimedInnovation> innovations;
   std::vector<TimedCost> steps;
+  std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into pictures for it
+  FilmStrip film;
+  std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
   std::vector<std::string> notes;  ///< what was skipped or odd, one line each
   Duration wall{0};

@@ -17,6 +17,12 @@ StepTimes step_times(const std::vector<Recording::TimedCost>& steps) {
   return {sum / static_cast<double>(us.size()), quantile(0.5), quantile(0.99), quantile(0.999), us.back()};
 }
 
+std::int64_t deadline_misses(const Recording& recording) {
+  if (!recording.frame_budget) return 0;
+  return std::ranges::count_if(recording.steps,
+                               [&](const auto& step) { return step.cpu > *recording.frame_budget; });
+}
+
 std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations) {
   double nis = 0.0;
   double dof = 0.0;

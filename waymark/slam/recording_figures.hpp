@@ -18,6 +18,9 @@ struct StepTimes {
 
 [[nodiscard]] StepTimes step_times(const std::vector<Recording::TimedCost>& steps);
 
+/// Steps that took longer than they may.
+[[nodiscard]] std::int64_t deadline_misses(const Recording& recording);
+
 /// The mean NIS per degree of freedom of the observations that were used.
 [[nodiscard]] std::optional<double> nis_per_dof(const std::vector<Recording::TimedInnovation>& innovations);
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "waymark/kernels/fast_corners.hpp"
-
 namespace waymark::vision {
 namespace {
 
@@ -41,7 +39,7 @@ const std::vector<Corner>& CornerDetector::detect(const ImageView& image, const 
   corners_.clear();
   const PixelRect cell = intersection(wanted, interior(image));
   if (is_empty(cell)) return corners_;
-  reserve(cell);
+  reserve(cell.width_px, cell.height_px);
   for (int v = cell.v - 1; v <= cell.v + cell.height_px; ++v) {
     score_row(image, cell, v);
     if (v > cell.v && row_of(v - 1).any) add_largest(cell, v - 1);
@@ -49,9 +47,8 @@ const std::vector<Corner>& CornerDetector::detect(const ImageView& image, const 
   return corners_;
 }
 
-void CornerDetector::reserve(const PixelRect& cell) {
-  const auto width = static_cast<std::size_t>(cell.width_px),
-             height = static_cast<std::size_t>(cell.height_px);
+void CornerDetector::reserve(int width_px, int height_px) {
+  const auto width = static_cast<std::size_t>(width_px), height = static_cast<std::size_t>(height_px);
   for (ScoreRow& row : rows_)
     if (row.scores.size() < width + 2) row.scores.resize(width + 2);
   if (places_.size() < (width + 1) / 2) places_.resize((width + 1) / 2);
@@ -69,10 +66,9 @@ void CornerDetector::score_row(const ImageView& image, const PixelRect& cell, in
     return;
   }
   row.scores[0] = row.scores[static_cast<std::size_t>(cell.width_px) + 1] = 0;
-  row.any =
-      kernels::fast_scores(image.pixel(scored.u, v), image.stride, static_cast<std::size_t>(scored.width_px),
-                           static_cast<std::uint8_t>(options_.threshold), options_.arc,
-                           row.scores.data() + (scored.u - cell.u + 1));
+  row.any = fast_scores_(image.pixel(scored.u, v), image.stride, static_cast<std::size_t>(scored.width_px),
+                         static_cast<std::uint8_t>(options_.threshold), options_.arc,
+                         row.scores.data() + (scored.u - cell.u + 1));
 }
 
 void CornerDetector::add_largest(const PixelRect& cell, int v) {

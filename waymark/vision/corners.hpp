@@ -6,6 +6,7 @@
 
 #include "waymark/core/config.hpp"
 #include "waymark/core/grey_image.hpp"
+#include "waymark/kernels/fast_corners.hpp"
 
 namespace waymark::vision {
 
@@ -28,6 +29,7 @@ struct Corner {
 struct CornerOptions {
   int threshold = 20;  ///< grey levels, 1 to 254
   int arc = 12;        ///< pixels of the circle of 16, 9 to 12
+  kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
 
 void describe(Schema& schema, CornerOptions& options);
@@ -36,7 +38,11 @@ void describe(Schema& schema, CornerOptions& options);
 /// the corners and responses of OpenCV's detector.
 class CornerDetector {
  public:
-  explicit CornerDetector(const CornerOptions& options = {}) : options_(options) {}
+  explicit CornerDetector(const CornerOptions& options = {})
+      : options_(options), fast_scores_(kernels::fast_scores_by(options.instructions)) {}
+
+  /// Room for images up to this size, so that detect() allocates nothing for them.
+  void reserve(int width_px, int height_px);
 
   /// The corners of the whole image, row by row. Valid until the next call; the detector allocates for its
   /// largest image only.
@@ -50,12 +56,12 @@ class CornerDetector {
     std::vector<std::uint8_t> scores;
     bool any = false;
   };
-  void reserve(const PixelRect& cell);
   void score_row(const ImageView& image, const PixelRect& cell, int v);
   void add_largest(const PixelRect& cell, int v);
   ScoreRow& row_of(int v) { return rows_[static_cast<std::size_t>(v) % rows_.size()]; }
 
   CornerOptions options_;
+  kernels::FastScores fast_scores_;
   std::array<ScoreRow, 3> rows_;
   std::vector<std::int32_t> places_;
   std::vector<Corner> corners_;

@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "waymark/core/angle.hpp"
 #include "waymark/core/chi2.hpp"
 
 namespace waymark::vision {
@@ -88,7 +89,23 @@ struct Search::Task {
 };
 
 Search::Search(const SearchOptions& options)
-    : options_(options), gate_(chi2_quantile(options.probability, 2.0)), detector_(options.corners) {}
+    : options_(options),
+      gate_(chi2_quantile(options.probability, 2.0)),
+      zmssd_search_(kernels::zmssd_search_by(options.instructions)),
+      detector_(options.corners) {}
+
+void Search::reserve(int width_px, int height_px) {
+  const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  detector_.reserve(width_px, height_px);
+  ellipse_.rows.reserve(static_cast<std::size_t>(height_px));
+  scores_.resize(std::max(scores_.size(), std::min(pixels, static_cast<std::size_t>(options_.max_windows))));
+  strongest_.reserve(pixels / 4);
+}
+
+double Search::expected_windows(const Eigen::Matrix2d& S) const {
+  const double area = kPi * gate_ * std::sqrt(std::max(0.0, S.determinant()));
+  return std::min(area, static_cast<double>(options_.max_windows));
+}
 
 std::optional<Match> Search::find(const ImageView& image, const Patch& patch,
                                   const Eigen::Vector2d& predicted, const Eigen::Matrix2d& S) {
@@ -145,8 +162,8 @@ void Search::score_rows(const Task& task, int first_row, const WindowRow* rows, 
   windows_ += static_cast<std::int64_t>(count);
   if (scores_.size() < count) scores_.resize(count);
   const int before = before_place(task.patch.size);
-  kernels::zmssd_search(task.zmssd_patch, task.image.row(first_row - before) - before, task.image.stride,
-                        rows, row_count, scores_.data());
+  zmssd_search_(task.zmssd_patch, task.image.row(first_row - before) - before, task.image.stride, rows,
+                row_count, scores_.data());
   const double zmssd_per_score = 1.0 / (task.patch.size * task.patch.size);
   const bool is_map = options_.match == MatchScore::kMap;
   const double weight = is_map ? 1.0 / (4.0 * options_.grey_sigma * options_.grey_sigma) : 1.0;

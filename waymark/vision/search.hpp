@@ -30,6 +30,7 @@ struct SearchOptions {
   double grey_sigma = 3.0;    ///< noise of a pixel, grey levels
   double accept_ratio = 4.0;  ///< of the ZMSSD that the right place is expected to have
   CornerOptions corners{.threshold = 15, .arc = 9};  ///< of the search at corners
+  kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
 
 void describe(Schema& schema, SearchOptions& options);
@@ -69,6 +70,11 @@ class Search {
   [[nodiscard]] std::optional<Match> find(const ImageView& image, const Patch& patch,
                                           const Eigen::Vector2d& predicted, const Eigen::Matrix2d& S);
 
+  /// Room for images up to this size, so that find() allocates nothing in them.
+  void reserve(int width_px, int height_px);
+
+  /// Windows that a find() in this ellipse should score, where it does not leave the image.
+  [[nodiscard]] double expected_windows(const Eigen::Matrix2d& S) const;
   /// Windows that the last find() scored.
   [[nodiscard]] std::int64_t windows() const { return windows_; }
 
@@ -81,6 +87,7 @@ class Search {
 
   SearchOptions options_;
   double gate_;
+  kernels::ZmssdSearch zmssd_search_;
   CornerDetector detector_;
   EllipseRows ellipse_;
   std::vector<std::uint32_t> scores_;

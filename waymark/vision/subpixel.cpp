@@ -10,12 +10,13 @@ namespace {
 
 using Scores = Eigen::Matrix3d;  ///< ZMSSD at (row, column) around the place
 
-Scores scores_around(const ImageView& image, const Patch& patch, int u, int v) {
+Scores scores_around(const ImageView& image, const Patch& patch, int u, int v,
+                     kernels::Instructions instructions) {
   const std::array<kernels::WindowRow, 3> rows{kernels::WindowRow{0, 3}, {0, 3}, {0, 3}};
   std::array<std::uint32_t, 9> scores{};
   const int before = before_place(patch.size) + 1;
-  kernels::zmssd_search(patch.for_search(), image.pixel(u - before, v - before), image.stride, rows.data(),
-                        rows.size(), scores.data());
+  kernels::zmssd_search_by(instructions)(patch.for_search(), image.pixel(u - before, v - before),
+                                         image.stride, rows.data(), rows.size(), scores.data());
   Scores c;
   for (int k = 0; k < 9; ++k) c(k / 3, k % 3) = scores[static_cast<std::size_t>(k)];
   return c / (patch.size * patch.size);
@@ -31,9 +32,9 @@ Eigen::Matrix2d floored(const Eigen::Matrix2d& R, double least) {
 }  // namespace
 
 std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch, int u, int v,
-                                      double grey_sigma) {
+                                      double grey_sigma, kernels::Instructions instructions) {
   if (!patch_fits(image, u, v, patch.size, 1)) return std::nullopt;
-  const Scores c = scores_around(image, patch, u, v);
+  const Scores c = scores_around(image, patch, u, v, instructions);
   const Eigen::Vector2d gradient(0.5 * (c(1, 2) - c(1, 0)), 0.5 * (c(2, 1) - c(0, 1)));
   const double mixed = 0.25 * (c(2, 2) - c(2, 0) - c(0, 2) + c(0, 0));
   const Eigen::Matrix2d H{{c(1, 2) - 2.0 * c(1, 1) + c(1, 0), mixed},

@@ -23,8 +23,9 @@ inline constexpr double kLeastPixelSigma = 0.1;
 /// is as weak as noise; at least kLeastPixelSigma in every direction. Nothing where a neighbour leaves the
 /// image, or the place is no minimum within a pixel: an edge, which fixes one direction only, or the border
 /// of the search.
-[[nodiscard]] std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch, int u, int v,
-                                                    double grey_sigma);
+[[nodiscard]] std::optional<SubpixelPeak> find_peak(
+    const ImageView& image, const Patch& patch, int u, int v, double grey_sigma,
+    kernels::Instructions instructions = kernels::Instructions::kSimd);
 
 /// The covariance of a place that is known to the whole pixel only.
 [[nodiscard]] Eigen::Matrix2d whole_pixel_covariance();

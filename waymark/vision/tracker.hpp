@@ -1,22 +1,35 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "waymark/core/background.hpp"
 #include "waymark/core/expectation.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/models/camera.hpp"
+#include "waymark/vision/frame_budget.hpp"
+#include "waymark/vision/landmark_finder.hpp"
+#include "waymark/vision/look.hpp"
+#include "waymark/vision/match_order.hpp"
+#include "waymark/vision/new_corners.hpp"
 #include "waymark/vision/search.hpp"
+#include "waymark/vision/visual_memory.hpp"
 
 namespace waymark::vision {
 
 struct TrackerOptions {
-  int patch_px = 16;
   int most_observed = 30;  ///< landmarks looked for in one picture
+  FinderOptions finder;
+  CornerOptions corners;
+  NewCornerOptions new_corners;
+  FrameBudgetOptions budget;
+  kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
 
+/// Adds `tracker.` and `corners.` keys.
 void describe(Schema& schema, TrackerOptions& options);
 
 /// What was found in a picture, and what was looked for in vain. Views into the tracker.
@@ -25,23 +38,22 @@ struct Sightings {
   std::span<const LandmarkId> missed;
 };
 
-/// What became of one expectation or corner in the last picture, for those who want to draw it.
-struct Look {
-  enum class Result : std::uint8_t { kNotTried, kFound, kMissed, kNew };
-  LandmarkId id;
-  bool candidate = false;
-  Result result = Result::kNotTried;
-  Eigen::Vector2d predicted_px = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d S = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< where it was found, or the best place
+/// What happened since the tracker was made.
+struct TrackerCounts {
+  std::int64_t pictures = 0;
+  std::int64_t unusable = 0;       ///< pictures that showed nothing, or were of another size
+  std::int64_t out_of_budget = 0;  ///< pictures in which something was left out for want of time
 };
 
 /// The camera front end: remembers what landmarks look like, looks for them where they are expected, and
 /// proposes new corners where the picture has none. Per picture begin(), match(), finish(), learn().
+///
+/// A picture that shows nothing (is_usable()) has no sightings, and nothing counts as missed in it. Without
+/// new landmarks nothing is allocated from the first picture on, nor with them up to VisualMemory::kRoom.
 class Tracker {
  public:
   /// Candidates and new corners are looked for on a thread of their own where `threads` > 1; the results are
-  /// the same.
+  /// the same. Half a ms.
   Tracker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera, int threads);
 
   /// Starts on a picture, taken at the expected pose; it must stay where it is until finish(). Expectations
@@ -49,16 +61,69 @@ class Tracker {
   void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
   /// The landmarks: those that tell most for their cost first, within the budget.
   [[nodiscard]] Sightings match();
-  /// The candidates, and new corners under new identities.
+  /// The candidates, and new corners under new identities. A new corner is the pixel around which its patch
+  /// is cut, so its own place is certain by definition; it claims kLeastPixelSigma, for what later matches
+  /// against this patch have in common.
   [[nodiscard]] Sightings finish();
-  /// What the filter made of finish(): forgets what it did not take and what it dropped.
+  /// Forgets what the filter dropped and what of finish() it did not take. May also be called before
+  /// finish(), for what it made of match().
   void learn(const Correction& correction);
 
-  [[nodiscard]] std::span<const Look> looks() const;
+  /// How much of the frame's budget others need.
+  void leave_time(Duration others) { others_ = others; }
+
+  /// Every expectation in its order, then the new corners. Valid from finish() to begin().
+  [[nodiscard]] std::span<const Look> looks() const { return looks_; }
+  [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
   [[nodiscard]] const FunctionBlocks& blocks() const { return blocks_; }
 
  private:
+  /// One who looks: for landmarks on the caller's thread, for candidates on the other.
+  struct Seeker {
+    Seeker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera);
+    LandmarkFinder finder;
+    FrameBudget budget;
+    std::vector<Prospect> prospects;
+    std::vector<Observation> found;
+    std::vector<LandmarkId> missed;
+    bool is_out_of_budget = false;
+
+    [[nodiscard]] Sightings sightings() const { return {found, missed}; }
+  };
+
+  void copy(std::span<const Expectation> expectations);
+  void look_behind();
+  void look_for(bool candidates, int most, Seeker& seeker);
+  void gather(bool candidates, Seeker& seeker);
+  void add_new_corners();
+  [[nodiscard]] Duration budget_behind() const;
+
+  TrackerOptions options_;
+  double grey_sigma_;
+  Camera camera_;
+  VisualMemory memory_;
+  NewCorners new_corners_;
+  Seeker landmarks_, candidates_;
+  Duration others_{0};
+
+  // Of the present picture.
+  ImageView image_;
+  CameraPose here_;
+  bool is_usable_ = false;
+  std::vector<Expectation> expectations_;
+  std::vector<Appearance*> appearances_;  ///< of each; null where it is not known
+  std::vector<Eigen::Matrix2d> R_;        ///< of each that was found
+  std::vector<Look> looks_;
+  std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be looked for
+  int candidates_under_way_ = 0;
+  std::span<const Corner> corners_;
+  std::vector<LandmarkId> proposed_;  ///< new corners of which learn() has not heard yet
+  std::int32_t next_number_ = 0;
+
+  TrackerCounts counts_;
+  Duration corners_took_{0}, candidates_took_{0};
   FunctionBlocks blocks_{"FB2 corners", "FB4 match", "FB7 match candidates"};
+  Background background_;  ///< last, so that its thread ends before what it works on
 };
 
 }  // namespace waymark::vision

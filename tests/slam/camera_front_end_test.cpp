@@ -1,0 +1,128 @@
+#include "waymark/slam/camera_front_end.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "waymark/slam/make_filter.hpp"
+
+#include "pictures.hpp"
+
+namespace waymark {
+namespace {
+
+using test::noise_picture;
+using test::plain_picture;
+using test::taken;
+
+Config camera_config() {
+  Config config;
+  config.observe = Observe::kPixel;
+  return config;
+}
+
+/// A robot with a camera: what comes out of the pipeline, step by step.
+struct Robot {
+  struct Seen {
+    Stamp stamp;
+    Pose2 dead_reckoning;
+    PoseEstimate pose;
+    bool picture = false;
+  };
+
+  explicit Robot(const PipelineOptions& options = {})
+      : filter(std::move(*make_filter(camera_config()))),
+        front_end(make_front_end(camera_config(), *filter)),
+        pipeline(
+            *filter, options, {}, {}, Observe::kPixel,
+            [this](const Step& step) {
+              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.picture != nullptr});
+            },
+            front_end.get()) {}
+
+  /// Drives ahead at 1 m/s for `seconds` while this is seen.
+  void drive(double seconds, std::vector<Event> seen) {
+    pipeline.push({stamp_from_seconds(0.0), Velocity{1.0, 0.0}});
+    for (Event& event : seen) pipeline.push(std::move(event));
+    pipeline.push({stamp_from_seconds(seconds), Velocity{}});
+    pipeline.finish();
+  }
+
+  std::unique_ptr<Filter> filter;
+  std::unique_ptr<CameraFrontEnd> front_end;
+  std::vector<Seen> steps;
+  Pipeline pipeline;
+};
+
+TEST(CameraFrontEnd, LooksIntoAPictureFromWhereItWasTaken) {
+  Robot robot;
+  robot.drive(1.0, {taken(0.25, noise_picture(1)), taken(0.75, noise_picture(2))});
+  ASSERT_EQ(robot.steps.size(), 4U);
+  EXPECT_TRUE(robot.steps[1].picture && robot.steps[2].picture);
+  EXPECT_NEAR(robot.steps[1].dead_reckoning.x_m, 0.25, 1e-9);
+  EXPECT_NEAR(robot.steps[2].dead_reckoning.x_m, 0.75, 1e-9);
+  EXPECT_EQ(robot.pipeline.counts().pictures, 2);
+}
+
+TEST(CameraFrontEnd, PassesOverPicturesThatDoNotFitTheCamera) {
+  Robot robot;
+  robot.drive(1.0, {taken(0.2, nullptr), taken(0.4, std::make_shared<const GreyImage>()),
+                    taken(0.6, noise_picture(1, 640, 480)), taken(0.8, noise_picture(1, 240, 320))});
+  EXPECT_EQ(robot.pipeline.counts().misfits, 4);
+  EXPECT_EQ(robot.pipeline.counts().pictures, 0);
+  EXPECT_NEAR(robot.steps.back().pose.T_world_robot.x_m, 1.0, 1e-9);
+}
+
+TEST(CameraFrontEnd, PassesOverPicturesThatComeTwice) {
+  Robot robot;
+  robot.drive(1.0, {taken(0.2, noise_picture(1)), taken(0.2, noise_picture(2)), taken(0.4, noise_picture(1)),
+                    taken(0.6, noise_picture(3))});
+  EXPECT_EQ(robot.pipeline.counts().repeats, 2);
+  EXPECT_EQ(robot.pipeline.counts().pictures, 2);
+}
+
+TEST(CameraFrontEnd, PutsALatePictureInItsPlaceAndDropsOneThatIsTooLate) {
+  Robot robot({.reorder_window_s = 0.3});
+  robot.drive(1.0, {taken(0.4, noise_picture(1)), taken(0.2, noise_picture(2)), taken(0.8, noise_picture(3)),
+                    taken(0.1, noise_picture(4))});
+  EXPECT_EQ(robot.pipeline.counts().pictures, 3);
+  EXPECT_EQ(robot.pipeline.counts().late, 1);
+  EXPECT_TRUE(std::ranges::is_sorted(robot.steps, {}, &Robot::Seen::stamp));
+}
+
+TEST(CameraFrontEnd, FindsNothingInBlackAndWhiteAndGoesOnByDeadReckoning) {
+  Robot robot;
+  std::vector<Event> seen;
+  for (int i = 1; i < 30; ++i)
+    seen.push_back(taken(i / 30.0, i % 3 == 0 ? noise_picture(1) : plain_picture(i % 3 == 1 ? 0 : 255)));
+  robot.drive(1.0, std::move(seen));
+  EXPECT_EQ(robot.pipeline.counts().pictures, 29);
+  const PoseEstimate& end = robot.steps.back().pose;
+  EXPECT_NEAR(end.T_world_robot.x_m, 1.0, 5.0 * std::sqrt(end.covariance(0, 0)) + 1e-9);
+  EXPECT_TRUE(end.covariance.allFinite());
+}
+
+TEST(CameraFrontEnd, PicturesAreIgnoredWhereNobodyLooks) {
+  Config config;
+  const auto filter = std::move(*make_filter(config));
+  EXPECT_EQ(make_front_end(config, *filter), nullptr);
+  Pipeline pipeline(*filter, {}, {}, {}, Observe::kRangeBearing, [](const Step&) {});
+  pipeline.push(taken(0.5, noise_picture(1)));
+  pipeline.finish();
+  EXPECT_EQ(pipeline.counts().events, 0);
+}
+
+TEST(CameraFrontEnd, ShowsTheBlocksOfFilterAndTrackerInOneTable) {
+  Robot robot;
+  robot.drive(1.0, {taken(0.2, noise_picture(1)), taken(0.5, noise_picture(2))});
+  const auto blocks = robot.front_end->blocks();
+  ASSERT_EQ(blocks.size(), 9U);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    EXPECT_TRUE(blocks[i].name.starts_with("FB" + std::to_string(i + 1) + " ")) << blocks[i].name;
+  EXPECT_GT(blocks[1].calls, 0);
+}
+
+}  // namespace
+}  // namespace waymark

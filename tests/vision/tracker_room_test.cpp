@@ -1,0 +1,122 @@
+// The tracker in pictures of a rendered room, whose every pixel is known to be of a point in space.
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "waymark/sim/film.hpp"
+#include "waymark/sim/rooms.hpp"
+#include "waymark/vision/tracker.hpp"
+
+#include "known_points.hpp"
+
+namespace waymark::vision {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// What is seen along a ray.
+std::optional<Vector3d> first_on_ray(const std::vector<sim::Rectangle>& rectangles, const Vector3d& from,
+                                     const Vector3d& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const sim::Rectangle& r : rectangles) {
+    const double towards = direction.dot(r.normal());
+    if (towards >= 0.0) continue;  // from behind it is invisible
+    const double distance = (r.corner_m - from).dot(r.normal()) / towards;
+    const Vector3d on = from + distance * direction - r.corner_m;
+    const double s = on.dot(r.along_s), t = on.dot(r.along_t);
+    const bool is_inside = r.endless || (s >= 0.0 && s <= r.width_m && t >= 0.0 && t <= r.height_m);
+    if (is_inside && distance > 0.0) nearest = std::min(nearest, distance);
+  }
+  if (!std::isfinite(nearest)) return std::nullopt;
+  return from + nearest * direction;
+}
+
+/// A drive through a room without people, and what its camera takes.
+struct Room {
+  explicit Room(std::uint64_t seed, sim::FilmOptions film_options = calm())
+      : options(*sim::scenario("room")),
+        path(sim::make_path(options.path, seed)),
+        driven(sim::drive(path, options, seed)),
+        scene(sim::build_scene(without_people(options.room), path, seed)),
+        rectangles(scene.rectangles),
+        camera(sim::camera_of(film_options)),
+        film(film_options, std::move(scene), driven, seed, 1) {}
+
+  static sim::FilmOptions calm() {
+    sim::FilmOptions film;
+    film.vibration_pitch_deg = film.vibration_roll_deg = film.vibration_height_m = 0.0;
+    film.drift_ratio = film.jump_ratio = 0.0;
+    return film;
+  }
+  static sim::RoomOptions without_people(sim::RoomOptions room) {
+    room.walkers = 0;
+    return room;
+  }
+
+  [[nodiscard]] Pose2 pose(std::size_t image) const { return driven.at(film.stamp(image)); }
+  [[nodiscard]] std::optional<Vector3d> point_at(const Vector2d& pixel, std::size_t image) const {
+    const CameraPose from = camera.pose(pose(image));
+    const auto ray = camera.ray(pixel);
+    if (!ray) return std::nullopt;
+    return first_on_ray(rectangles, from.p_world_camera,
+                        from.R_camera_world.transpose() * ray->xy.homogeneous());
+  }
+
+  sim::SimOptions options;
+  sim::Path path;
+  sim::Drive driven;
+  sim::Scene scene;
+  std::vector<sim::Rectangle> rectangles;
+  Camera camera;
+  sim::Film film;
+};
+
+struct Errors {
+  std::vector<double> distances_px;
+  std::vector<double> squares_by_R;
+  int found = 0, missed = 0;
+  void add(const Vector2d& error, const Eigen::Matrix2d& R) {
+    distances_px.push_back(error.norm());
+    squares_by_R.push_back(error.dot(R.inverse() * error));
+  }
+  [[nodiscard]] static double quantile(std::vector<double> values, double part) {
+    std::ranges::sort(values);
+    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+  }
+};
+
+Errors follow(Room& room, std::size_t images, std::size_t step, const Eigen::Matrix2d& S) {
+  Tracker tracker({}, {}, room.camera, 1);
+  test::KnownPoints points(room.camera);
+  RandomStream random(5, StreamPurpose::kWorld);
+  Errors errors;
+  for (std::size_t i = 0; i < images; i += step) {
+    const GreyImage image = room.film.take(i);
+    tracker.begin(image, room.pose(i), points.expect(room.pose(i), S, random));
+    const Sightings sightings = tracker.match();
+    errors.found += static_cast<int>(sightings.found.size());
+    errors.missed += static_cast<int>(sightings.missed.size());
+    for (const Observation& seen : sightings.found)
+      errors.add(test::place_of(seen) - *points.pixel(*seen.id, room.pose(i)), *seen.covariance);
+    const auto innovations =
+        points.take(tracker.finish(), [&](const Vector2d& pixel) { return room.point_at(pixel, i); });
+    tracker.learn({innovations, {}});
+  }
+  return errors;
+}
+
+TEST(TrackerInARoom, FindsPlacesToAFifthOfAPixelUnderKnownMotion) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Room room(seed);
+    const Errors errors = follow(room, 90, 3, 9.0 * Eigen::Matrix2d::Identity());
+    EXPECT_GT(errors.found, 2 * errors.missed);
+    EXPECT_LT(Errors::quantile(errors.distances_px, 0.5), 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace waymark::vision

@@ -1,0 +1,303 @@
+#include "waymark/vision/tracker.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "support/allocation_counter.hpp"
+
+#include "known_points.hpp"
+#include "squares.hpp"
+
+namespace waymark::vision {
+namespace {
+
+constexpr double kWall_m = 2.77;  // a pixel there is a centimetre wide
+const Eigen::Matrix2d kS = 9.0 * Eigen::Matrix2d::Identity();
+
+/// The camera in front of a wall: a step to the left of a centimetre shifts the picture by a pixel.
+struct Wall {
+  explicit Wall(std::uint64_t seed)
+      : random(seed, StreamPurpose::kWorld), wall(test::squares(500, 240, random)) {}
+
+  static Pose2 pose(int step) { return {0.0, 0.01 * step, 0.0}; }
+  /// With noise that is another one in every picture.
+  GreyImage picture(int step) {
+    GreyImage image(320, 240);
+    for (int v = 0; v < 240; ++v)
+      for (int u = 0; u < 320; ++u)
+        image(u, v) = static_cast<std::uint8_t>(wall(u + 90 - step, v) + std::lround(2.0 * random.normal()));
+    return image;
+  }
+  std::optional<Eigen::Vector3d> point_at(const Eigen::Vector2d& pixel, int step) const {
+    const CameraPose from = camera.pose(pose(step));
+    const Eigen::Vector3d ray = camera.ray(pixel)->xy.homogeneous();
+    return from.p_world_camera + kWall_m * from.R_camera_world.transpose() * ray;
+  }
+
+  RandomStream random;
+  GreyImage wall;
+  Camera camera;
+};
+
+/// A tracker that has begun to know the wall.
+struct Started {
+  explicit Started(std::uint64_t seed, const TrackerOptions& options = {}, int threads = 1)
+      : wall(seed), tracker(options, {}, wall.camera, threads), points(wall.camera) {
+    for (int k = 0; k < 12; ++k) see(0);
+  }
+
+  /// One picture from expectations to what is learnt. Returns what was found and missed, of both kinds.
+  std::vector<Observation> see(int step, bool candidates = false) {
+    image = wall.picture(step);
+    expectations = points.expect(Wall::pose(step), kS, wall.random, candidates);
+    tracker.begin(image, Wall::pose(step), expectations);
+    const Sightings matched = tracker.match();
+    std::vector<Observation> found(matched.found.begin(), matched.found.end());
+    missed.assign(matched.missed.begin(), matched.missed.end());
+    const Sightings finished = tracker.finish();
+    found.insert(found.end(), finished.found.begin(), finished.found.end());
+    missed.insert(missed.end(), finished.missed.begin(), finished.missed.end());
+    const auto innovations =
+        points.take(finished, [&](const auto& pixel) { return wall.point_at(pixel, step); });
+    tracker.learn({innovations, {}});
+    return found;
+  }
+
+  Wall wall;
+  Tracker tracker;
+  test::KnownPoints points;
+  GreyImage image;
+  std::vector<Expectation> expectations;
+  std::vector<LandmarkId> missed;
+};
+
+int number_of(std::span<const Look> looks, Look::Result result) {
+  return static_cast<int>(std::ranges::count(looks, result, &Look::result));
+}
+
+TEST(Tracker, FindsLandmarksAgainWhereTheyAre) {
+  for (const bool candidates : {false, true}) {
+    Started s(1, {.new_corners = {.most_candidates = 100}});
+    const std::size_t known = s.points.size();
+    ASSERT_GE(known, 12U);
+    int found = 0, expected = 0;
+    for (int step = 1; step < 30; ++step) {
+      for (const Observation& seen : s.see(step, candidates)) {
+        const auto truth = s.points.pixel(*seen.id, Wall::pose(step));
+        ASSERT_TRUE(truth);
+        const Eigen::Vector2d error = test::place_of(seen) - *truth;
+        EXPECT_LT(error.norm(), 0.3) << seen.id->number;
+        EXPECT_LT(error.dot(seen.covariance->inverse() * error), 20.0);
+        ++found;
+      }
+      expected += static_cast<int>(s.expectations.size());
+    }
+    EXPECT_GT(found, expected * 9 / 10);
+  }
+}
+
+TEST(Tracker, NamesEveryNewCornerAnew) {
+  Started s(2);
+  std::set<LandmarkId> ids;
+  for (const Look& look : s.tracker.looks()) EXPECT_TRUE(ids.insert(look.id).second);
+  // Also where the map knows corners that the tracker does not.
+  const std::vector<Expectation> foreign{{.id = {LandmarkId::Family::kCorner, 5000}}};
+  Tracker fresh({}, {}, s.wall.camera, 1);
+  fresh.begin(s.image, Wall::pose(0), foreign);
+  EXPECT_TRUE(fresh.match().found.empty());
+  const Sightings sightings = fresh.finish();
+  ASSERT_FALSE(sightings.found.empty());
+  EXPECT_TRUE(sightings.missed.empty());
+  for (const Observation& seen : sightings.found) EXPECT_GT(seen.id->number, 5000);
+}
+
+TEST(Tracker, ForgetsWhatTheFilterDidNotTakeOrDropped) {
+  Wall wall(3);
+  Tracker tracker({}, {}, wall.camera, 1);
+  const GreyImage image = wall.picture(0);
+  tracker.begin(image, Wall::pose(0), {});
+  static_cast<void>(tracker.match());
+  const Sightings first = tracker.finish();
+  ASSERT_EQ(first.found.size(), 4U);
+  test::KnownPoints points(wall.camera);
+  std::vector<Innovation> innovations;
+  for (const Observation& seen : first.found) {
+    points.add(*seen.id, *wall.point_at(test::place_of(seen), 0));
+    innovations.push_back({*seen.id, innovations.empty() ? Outcome::kMapFull : Outcome::kAdded});
+  }
+  const std::vector<LandmarkId> removed{innovations[1].landmark};
+  tracker.learn({innovations, removed});
+  tracker.begin(image, Wall::pose(0), points.expect(Wall::pose(0), kS, wall.random));
+  const Sightings second = tracker.match();
+  EXPECT_EQ(second.found.size(), 2U);
+  EXPECT_TRUE(second.missed.empty());
+}
+
+TEST(Tracker, DoesNotReportWhatWasDroppedMeanwhile) {
+  Started s(4);
+  const auto candidates = s.points.expect(Wall::pose(0), kS, s.wall.random, true);
+  s.tracker.begin(s.image, Wall::pose(0), candidates);
+  static_cast<void>(s.tracker.match());
+  const std::vector<LandmarkId> removed{candidates.front().id};
+  s.tracker.learn({{}, removed});
+  const Sightings finished = s.tracker.finish();
+  EXPECT_FALSE(finished.found.empty());
+  for (const Observation& seen : finished.found) EXPECT_NE(*seen.id, removed.front());
+}
+
+TEST(Tracker, MissesWhatIsNoLongerThere) {
+  Started s(5);
+  Wall other(99);
+  const GreyImage image = other.picture(0);
+  const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
+  s.tracker.begin(image, Wall::pose(0), expectations);
+  const Sightings sightings = s.tracker.match();
+  EXPECT_GT(sightings.missed.size(), expectations.size() * 8 / 10);
+  static_cast<void>(s.tracker.finish());
+}
+
+TEST(Tracker, TakesAPictureThatShowsNothingForNoEvidence) {
+  Started s(6);
+  const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
+  GreyImage dark(320, 240, 3);
+  const std::vector<GreyImage> useless{GreyImage(320, 240, 0), GreyImage(320, 240, 255), dark,
+                                       GreyImage(160, 120, 90), GreyImage()};
+  for (const GreyImage& image : useless) {
+    s.tracker.begin(image, Wall::pose(0), expectations);
+    for (const Sightings& sightings : {s.tracker.match(), s.tracker.finish()}) {
+      EXPECT_TRUE(sightings.found.empty());
+      EXPECT_TRUE(sightings.missed.empty());
+    }
+    EXPECT_EQ(number_of(s.tracker.looks(), Look::Result::kNotTried), static_cast<int>(expectations.size()));
+  }
+  EXPECT_EQ(s.tracker.counts().unusable, static_cast<std::int64_t>(useless.size()));
+  EXPECT_GT(s.see(0).size(), 5U);  // landmarks return when seen
+}
+
+TEST(Tracker, SurvivesExpectationsThatAreNoNumbers) {
+  Started s(7);
+  auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
+  const double nan = std::nan("");
+  expectations[0].predicted_px = {nan, 5.0};
+  expectations[1].S = nan * kS;
+  expectations[2].information_nats = nan;
+  expectations[3].p_world_m.setConstant(nan);
+  expectations[4].predicted_px = {1e12, -1e12};
+  expectations[5].S.setZero();
+  s.tracker.begin(s.image, Wall::pose(0), expectations);
+  EXPECT_GE(s.tracker.match().found.size(), expectations.size() - 7);
+  static_cast<void>(s.tracker.finish());
+}
+
+TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
+  Started s(8);
+  auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
+  for (std::size_t k = 0; k < expectations.size(); ++k)
+    expectations[k].information_nats = 1.0 + static_cast<double>(k * 7 % expectations.size());
+  std::ranges::sort(expectations, std::greater(), &Expectation::information_nats);
+  const Duration all = duration_from_seconds(0.75 * 33e-3);
+  std::int64_t before = s.tracker.counts().out_of_budget;
+  for (const int left_us : {0, 10, 50, 100, 200, 5000}) {
+    s.tracker.leave_time(all - std::chrono::microseconds(left_us));
+    s.tracker.begin(s.image, Wall::pose(0), std::vector(expectations.rbegin(), expectations.rend()));
+    static_cast<void>(s.tracker.match());
+    static_cast<void>(s.tracker.finish());
+    std::vector<Look> looks(s.tracker.looks().begin(), s.tracker.looks().begin() + std::ssize(expectations));
+    std::ranges::reverse(looks);
+    const int tried = static_cast<int>(looks.size()) - number_of(looks, Look::Result::kNotTried);
+    for (int k = 0; k < tried; ++k)
+      EXPECT_NE(looks[static_cast<std::size_t>(k)].result, Look::Result::kNotTried);
+    // 260 windows each
+    EXPECT_NEAR(tried, std::min(left_us / 17, static_cast<int>(looks.size())), 2) << left_us;
+    const bool is_left_out = tried < std::ssize(looks);
+    EXPECT_EQ(s.tracker.counts().out_of_budget - before, is_left_out ? 1 : 0);
+    before = s.tracker.counts().out_of_budget;
+  }
+}
+
+TEST(Tracker, LooksForNoMoreThanItMay) {
+  Started s(9, {.most_observed = 5});
+  const auto found = s.see(0);
+  EXPECT_EQ(std::ranges::count_if(s.tracker.looks(),
+                                  [](const Look& look) {
+                                    return look.result == Look::Result::kFound ||
+                                           look.result == Look::Result::kMissed;
+                                  }),
+            5);
+  EXPECT_LE(found.size(), 5U + 4U);
+}
+
+/// All that a run through some pictures says.
+std::vector<double> transcript(const TrackerOptions& options, int threads) {
+  Started s(10, options, threads);
+  std::vector<double> all;
+  for (int step = 0; step < 20; ++step) {
+    for (const Observation& seen : s.see(step * 2, step % 3 == 1)) {
+      all.push_back(seen.id->number);
+      all.push_back(test::place_of(seen).x());
+      all.push_back(test::place_of(seen).y());
+      all.push_back(seen.covariance->sum());
+    }
+    for (const LandmarkId id : s.missed) all.push_back(id.number);
+  }
+  return all;
+}
+
+TEST(Tracker, SeesTheSameOnOneThreadAndOnTwo) {
+  const TrackerOptions options{.budget = {.per_frame_ms = 0.4}};  // which leaves something out
+  EXPECT_EQ(transcript(options, 1), transcript(options, 2));
+}
+
+TEST(Tracker, SeesTheSameInScalarCode) {
+  EXPECT_EQ(transcript({}, 1), transcript({.instructions = kernels::Instructions::kScalar}, 1));
+}
+
+TEST(Tracker, OfTheArticleMatchesWholePixelsOfPatchesAsTheyWereCut) {
+  Started s(11,
+            {.finder = {.warp = false, .subpixel = false}, .instructions = kernels::Instructions::kScalar});
+  int found = 0;
+  for (const Observation& seen : s.see(7)) {
+    const Eigen::Vector2d place = test::place_of(seen);
+    EXPECT_EQ(place, place.array().round().matrix());
+    if (const auto truth = s.points.pixel(*seen.id, Wall::pose(7))) {
+      EXPECT_LT((place - *truth).norm(), 0.8);
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 8);
+}
+
+TEST(Tracker, AllocatesNothingOnEitherThread) {
+  for (const int threads : {1, 2}) {
+    Started s(12, {}, threads);
+    std::vector<GreyImage> images;
+    std::vector<std::vector<Expectation>> expectations;
+    for (int step = 0; step < 10; ++step) {
+      images.push_back(s.wall.picture(step));
+      expectations.push_back(s.points.expect(Wall::pose(step), kS, s.wall.random));
+      for (std::size_t k = 0; k < 4; ++k) expectations.back()[k].candidate = true;
+      expectations.back()[0].S *= 100.0;  // searched at corners
+      expectations.back().pop_back();     // new corners are wanted
+    }
+    std::vector<Innovation> taken;
+    taken.reserve(100);
+    const test::AllocationCount count;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      s.tracker.begin(images[k], Wall::pose(static_cast<int>(k)), expectations[k]);
+      EXPECT_FALSE(s.tracker.match().found.empty());
+      const Sightings finished = s.tracker.finish();
+      EXPECT_FALSE(finished.found.empty());
+      taken.clear();
+      for (const Observation& seen : finished.found) taken.push_back({*seen.id, Outcome::kAdded});
+      s.tracker.learn({taken, {}});
+    }
+    EXPECT_EQ(count.allocations(), 0) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace waymark::vision

@@ -1,0 +1,62 @@
+#include "waymark/slam/camera_front_end.hpp"
+
+#include <algorithm>
+
+namespace waymark {
+
+CameraFrontEnd::CameraFrontEnd(PixelSlam& filter, const vision::TrackerOptions& options,
+                               const vision::SearchOptions& search, const Camera& camera, int threads)
+    : filter_(filter),
+      camera_(camera),
+      on_the_clock_(options.budget.kind == vision::BudgetKind::kClock),
+      tracker_(options, search, camera, threads) {}
+
+bool CameraFrontEnd::fits(const ImageView& image) const {
+  return image.width_px == camera_.width_px() && image.height_px == camera_.height_px();
+}
+
+const Correction& CameraFrontEnd::see(const ImageView& image) {
+  innovations_.clear();
+  begin(image);
+  correct(tracker_.match());
+  correction_ = {innovations_, correct(tracker_.finish()).removed};
+  leave_time();
+  return correction_;
+}
+
+void CameraFrontEnd::begin(const ImageView& image) {
+  const Duration start = thread_cpu_time();
+  const auto expectations = filter_.expect();
+  filter_took_ = thread_cpu_time() - start;
+  tracker_.begin(image, filter_.pose().T_world_robot, expectations);
+}
+
+/// One round.
+const Correction& CameraFrontEnd::correct(const vision::Sightings& sightings) {
+  const Duration start = thread_cpu_time();
+  filter_.missed(sightings.missed);
+  const Correction& correction = filter_.correct(sightings.found);
+  filter_took_ += thread_cpu_time() - start;
+  innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
+  tracker_.learn(correction);
+  return correction;
+}
+
+/// Where the clock counts the tracker leaves the filter as much time as it took at most of late.
+void CameraFrontEnd::leave_time() {
+  constexpr double kForgotten = 0.02;  // per picture
+  if (!on_the_clock_) return;
+  const auto remembered = std::chrono::duration_cast<Duration>((1.0 - kForgotten) * filter_takes_);
+  filter_takes_ = std::max(filter_took_, remembered);
+  tracker_.leave_time(filter_takes_);
+}
+
+std::vector<FunctionBlocks::Row> CameraFrontEnd::blocks() const {
+  std::vector<FunctionBlocks::Row> rows;
+  for (const FunctionBlocks* table : {&filter_.blocks(), &tracker_.blocks()})
+    rows.insert(rows.end(), table->rows().begin(), table->rows().end());
+  std::ranges::sort(rows, {}, &FunctionBlocks::Row::name);
+  return rows;
+}
+
+}  // namespace waymark

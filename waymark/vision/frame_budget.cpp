@@ -1,0 +1,51 @@
+#include "waymark/vision/frame_budget.hpp"
+
+#include "waymark/core/function_blocks.hpp"
+
+namespace waymark::vision {
+namespace {
+
+double nanoseconds(Duration d) { return static_cast<double>(d.count()); }
+
+}  // namespace
+
+void describe(Schema& schema, FrameBudgetOptions& options) {
+  schema.real("tracker.frame_budget_ms", options.per_frame_ms, {0.001, 10000.0},
+              "time for a picture; what is left out when it is used up is looked for in later ones");
+  schema.choice("tracker.budget", options.kind, {"work", "clock"},
+                "how it is counted: work (fixed costs, the same in every replay) or clock (CPU time)");
+}
+
+WorkCosts work_costs(kernels::Instructions instructions) {
+  if (instructions == kernels::Instructions::kSimd) return {};
+  return {.window_ns = 450.0, .peak_ns = 9.0 * 450.0, .pixel_ns = 40.0};
+}
+
+void FrameBudget::start(Duration most) {
+  left_ns_ = nanoseconds(most);
+  if (kind_ == BudgetKind::kClock) last_ = thread_cpu_time();
+}
+
+bool FrameBudget::allows(double cost_ns) {
+  if (kind_ == BudgetKind::kWork) return cost_ns <= left_ns_;
+  const Duration now = thread_cpu_time();
+  left_ns_ -= nanoseconds(now - last_);
+  last_ = now;
+  return cost_ns * ns_per_cost_ <= left_ns_;
+}
+
+void FrameBudget::spend(double cost_ns) {
+  if (kind_ == BudgetKind::kWork) {
+    left_ns_ -= cost_ns;
+    return;
+  }
+  // Rises at once and falls slowly: the next step may be as dear as the dearest.
+  constexpr double kFall = 0.05;
+  const Duration now = thread_cpu_time();
+  const double taken_ns = nanoseconds(now - last_), ns_per_cost = taken_ns / cost_ns;
+  left_ns_ -= taken_ns;
+  last_ = now;
+  ns_per_cost_ += (ns_per_cost > ns_per_cost_ ? 1.0 : kFall) * (ns_per_cost - ns_per_cost_);
+}
+
+}  // namespace waymark::vision

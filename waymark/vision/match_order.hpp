@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace waymark::vision {
+
+/// Something that could be looked for.
+struct Prospect {
+  std::size_t expectation = 0;  ///< which one
+  double nats = 0.0;            ///< what a sighting would tell
+  double cost_ns = 1.0;         ///< what looking for it takes
+
+  [[nodiscard]] double usefulness() const { return nats / cost_ns; }
+};
+
+/// The most information for its cost first (Davison 2005); equals, and what is no number at last, in the
+/// order of expectations.
+void order_by_usefulness(std::span<Prospect> prospects);
+
+}  // namespace waymark::vision
