@@ -1,5 +1,6 @@
 #include "waymark/vision/subpixel.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Eigenvalues>
@@ -44,10 +45,12 @@ std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch
   const Eigen::Vector2d step = -H_inverse * gradient;
   if (step.cwiseAbs().maxCoeff() > 1.0) return std::nullopt;
   // Noise against texture, and the noise of one picture against that of the other.
-  const double variance = grey_sigma * grey_sigma, pixels = patch.size * patch.size;
+  const double pixels = patch.size * patch.size;
+  const double zmssd = std::max(c(1, 1) + 0.5 * gradient.dot(step), 0.0);
+  const double variance = std::max(grey_sigma * grey_sigma, zmssd / (2.0 * (pixels - 1.0)));
   const Eigen::Matrix2d R =
       4.0 * variance * H_inverse + 2.0 * pixels * variance * variance * H_inverse * H_inverse;
-  return SubpixelPeak{Eigen::Vector2d(u, v) + step, floored(R, kLeastPixelSigma * kLeastPixelSigma)};
+  return SubpixelPeak{Eigen::Vector2d(u, v) + step, floored(R, kLeastPixelSigma * kLeastPixelSigma), zmssd};
 }
 
 Eigen::Matrix2d whole_pixel_covariance() {
