@@ -12,7 +12,7 @@ namespace waymark::vision {
 struct SubpixelPeak {
   Eigen::Vector2d pixel;
   Eigen::Matrix2d R;   ///< its covariance, px^2
-  double zmssd = 0.0;  ///< there: of what is left when the place is right
+  double zmssd = 0.0;  ///< what is left there, without what a change of contrast by up to 2 explains
 };
 
 /// No place is claimed to be known better than this.
