@@ -1,5 +1,6 @@
 // The tracker in pictures of a rendered room, whose every pixel is known to be of a point in space.
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -111,9 +112,13 @@ Errors follow(Room& room, std::size_t images, std::size_t step, const Eigen::Mat
 
 /// Follows a drive for three seconds, ten pictures per second.
 void expect_right_places(const sim::FilmOptions& film) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Room room(seed, film);
     const Errors errors = follow(room, 90, 3, 9.0 * Eigen::Matrix2d::Identity());
+    std::printf("seed %d: %d found, %d missed; error median %.3f px, 80 %% below %.2f, 95 %% below %.2f\n",
+                static_cast<int>(seed), errors.found, errors.missed,
+                Errors::quantile(errors.distances_px, 0.5), Errors::quantile(errors.distances_px, 0.8),
+                Errors::quantile(errors.distances_px, 0.95));
     EXPECT_GT(errors.found, 3 * errors.missed);
     EXPECT_LT(Errors::quantile(errors.distances_px, 0.5), 0.12);
     EXPECT_LT(Errors::quantile(errors.distances_px, 2.0 / 3.0), 0.2);
