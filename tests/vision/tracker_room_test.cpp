@@ -78,11 +78,11 @@ struct Room {
 
 struct Errors {
   std::vector<double> distances_px;
-  std::vector<double> squares_by_R;
+  std::vector<double> nis;
   int found = 0, missed = 0;
   void add(const Vector2d& error, const Eigen::Matrix2d& R) {
     distances_px.push_back(error.norm());
-    squares_by_R.push_back(error.dot(R.inverse() * error));
+    nis.push_back(error.dot(R.inverse() * error));
   }
   [[nodiscard]] static double quantile(std::vector<double> values, double part) {
     std::ranges::sort(values);
@@ -122,7 +122,7 @@ void expect_right_places(const sim::FilmOptions& film) {
     EXPECT_GT(errors.found, 3 * errors.missed);
     EXPECT_LT(Errors::quantile(errors.distances_px, 0.5), 0.12);
     EXPECT_LT(Errors::quantile(errors.distances_px, 2.0 / 3.0), 0.2);
-    EXPECT_LT(Errors::quantile(errors.squares_by_R, 0.5), 1.4) << "the median of chi-square";
+    EXPECT_LT(Errors::quantile(errors.nis, 0.5), 1.4) << "the median of chi-square";
   }
 }
 
