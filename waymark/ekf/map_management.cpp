@@ -53,7 +53,7 @@ void MapManagement::removed(int landmark) {
 
 bool MapManagement::keeps_failing(int landmark) const {
   constexpr int kLeastAttempts = 10;
-  const Record& record = records_[static_cast<std::size_t>(landmark)];
+  const Record& record = this->record(landmark);
   return record.sightings >= kLeastAttempts && 2 * record.matches < record.sightings;
 }
 
@@ -65,9 +65,9 @@ double MapManagement::usefulness(const Record& record) const {
 std::optional<int> MapManagement::least_useful() const {
   std::optional<int> worst;
   for (std::size_t i = 0; i < records_.size(); ++i) {
-    if (records_[i].scan == scan_) continue;
-    if (!worst || usefulness(records_[i]) < usefulness(records_[static_cast<std::size_t>(*worst)]))
-      worst = static_cast<int>(i);
+    const auto index = static_cast<int>(i);
+    if (is_in_scan(index)) continue;
+    if (!worst || usefulness(index) < usefulness(*worst)) worst = index;
   }
   return worst;
 }

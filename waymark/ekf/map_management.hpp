@@ -53,6 +53,11 @@ class MapManagement {
   /// Whether the landmark was missed in more than half of at least ten attempts.
   [[nodiscard]] bool keeps_failing(int landmark) const;
 
+  /// Whether the landmark was matched or added in the present scan.
+  [[nodiscard]] bool is_in_scan(int landmark) const { return record(landmark).scan == scan_; }
+  /// How useful the landmark has been: the smaller, the sooner it is evicted.
+  [[nodiscard]] double usefulness(int landmark) const { return usefulness(record(landmark)); }
+
   /// Which one to evict; nothing if all landmarks belong to the present scan. O(landmarks).
   [[nodiscard]] std::optional<int> least_useful() const;
 
@@ -64,6 +69,9 @@ class MapManagement {
     std::int64_t scan = 0;  ///< the last one in which it was matched or added
   };
 
+  [[nodiscard]] const Record& record(int landmark) const {
+    return records_[static_cast<std::size_t>(landmark)];
+  }
   [[nodiscard]] double usefulness(const Record& record) const;
 
   Eviction eviction_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,6 +37,9 @@ class PixelMap {
   [[nodiscard]] int capacity() const { return capacity_; }
   [[nodiscard]] bool is_full() const { return features_.size() == static_cast<std::size_t>(capacity_); }
 
+  [[nodiscard]] bool has_free_anchor() const {
+    return std::ranges::any_of(anchors_, [](const Anchor& anchor) { return anchor.holders == 0; });
+  }
   /// The robot's present pose as an anchor, held once; nothing where there is no room for another one.
   [[nodiscard]] std::optional<int> add_anchor();
   /// An anchor leaves the state when it has been released as often as held.

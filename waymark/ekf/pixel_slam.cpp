@@ -17,12 +17,14 @@ namespace {
 enum Block : std::size_t { kPredict, kProject, kJacobians, kEstimate, kWeights, kAdd };
 
 // Anchors at most, so pictures whose rays may be under way at once.
-constexpr int kMostAnchors = 32;
+constexpr int kMostAnchors = 40;
 constexpr double kBorder_px = 8.0;
 /// Variance of a place that is known to the whole pixel, px^2.
 constexpr double kRounding = 1.0 / 12.0;
 /// A point may be kept as (x, y, z) (Civera, Davison, Montiel 2008).
 constexpr double kLinear = 0.1;
+/// A ray that has to be settled before that may be kept as a point if sigma of its depth over the depth is less.
+constexpr double kFairlySure = 0.1;
 // A patch is recognised under this turn of the view and between these ratios of distances.
 const double kLeastCosine = std::cos(45.0 / 180.0 * kPi);
 constexpr double kNearest = 0.4, kFarthest = 2.5;
@@ -76,6 +78,8 @@ void describe(Schema& schema, PixelSlamOptions& options) {
                 "in what the depth of a new point is uniform; depth: as in the article");
   schema.integer("pixel.most_candidates", options.most_candidates, {1, 100},
                  "points whose depth is being found out at once");
+  schema.integer("pixel.least_pictures", options.least_pictures, {1, 100000},
+                 "sightings before a candidate is accepted: what moves by itself shows within these");
   schema.integer("pixel.most_pictures", options.most_pictures, {1, 100000},
                  "sightings after which a candidate is accepted though its depth is not known, and half the pictures after "
                  "which it is given up");
@@ -487,7 +491,7 @@ void PixelSlam::settle_rays() {
     if (innovation.outcome != Outcome::kMatched || !index || map_.feature(*index).is_point()) continue;
     const ekf::PixelMap::Feature& feature = map_.feature(*index);
     const Eigen::Vector3d ray = map_.state().landmark(feature.element);
-    const double sigma = std::sqrt(map_.state().landmark_covariance(feature.element)(2, 2));
+    const double sigma = inverse_depth(*index).sigma;
     if (ray[2] + 2.0 * sigma < 0.0)
       remove(*index);
     else if (ray[2] > 0.0 &&
@@ -521,7 +525,8 @@ void PixelSlam::weigh(std::size_t index, std::span<const Observation> observatio
   ++candidate.matches;
   const auto [mean, sigma] = candidate.depths.depth();
   const bool patient = options_.init == ekf::Initialization::kArticle;
-  if (sigma < options_.depth_ratio * mean || (!patient && candidate.matches >= options_.most_pictures))
+  const bool known = sigma < options_.depth_ratio * mean;
+  if (candidate.matches >= (known ? options_.least_pictures : options_.most_pictures) && (known || !patient))
     accept(candidate, index, observations);
 }
 
@@ -570,8 +575,8 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
   const bool at_once = options_.init == ekf::Initialization::kInverseDepth;
   const auto slot = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.anchor < 0; });
   if (!ray || (at_once ? !make_room() : slot == candidates_.end())) return;
+  if (!anchor_ && !free_an_anchor()) return;
   if (!anchor_) anchor_ = map_.add_anchor();
-  if (!anchor_) return;
   innovation.outcome = Outcome::kAdded;
   const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * noise(observation) * ray->dxy_dpixel.transpose();
   ekf::ErrorTerms shaken = vibration(ray->xy.homogeneous(), -1.0);
@@ -601,6 +606,38 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
 ekf::DepthParticles::Spread PixelSlam::unknown_depth() const {
   const double nearest = 1.0 / options_.depth.nearest_m, farthest = 1.0 / options_.depth.farthest_m;
   return {0.5 * (nearest + farthest), 0.25 * (nearest - farthest)};
+}
+
+/// Whether there is a free anchor, if need be by settling the rays of the one whose rays are least useful of those
+/// that nobody sees or needs: those of fairly sure depth as points, the others are removed.
+bool PixelSlam::free_an_anchor() {
+  if (map_.has_free_anchor()) return true;
+  std::array<double, kMostAnchors> worth{};
+  for (const Candidate& candidate : candidates_)
+    if (candidate.anchor >= 0) worth[static_cast<std::size_t>(candidate.anchor)] = HUGE_VAL;
+  const auto features = map_.features();
+  for (int i = 0; i < static_cast<int>(features.size()); ++i)
+    if (!map_.feature(i).is_point())
+      worth[static_cast<std::size_t>(map_.feature(i).anchor)] +=
+          management_.is_in_scan(i) ? HUGE_VAL : management_.usefulness(i);
+  const auto least = std::ranges::min_element(worth);
+  if (!std::isfinite(*least)) return false;
+  const auto anchor = static_cast<int>(least - worth.begin());
+  for (int i = static_cast<int>(features.size()) - 1; i >= 0; --i) {
+    if (map_.feature(i).anchor != anchor) continue;
+    const auto [rho, sigma] = inverse_depth(i);
+    if (sigma < kFairlySure * rho)
+      map_.make_point(i, camera_);
+    else
+      remove(i);
+  }
+  return true;
+}
+
+/// Of a ray.
+ekf::DepthParticles::Spread PixelSlam::inverse_depth(int index) const {
+  const int element = map_.feature(index).element;
+  return {map_.state().landmark(element)[2], std::sqrt(map_.state().landmark_covariance(element)(2, 2))};
 }
 
 void PixelSlam::drop(Candidate& candidate) {

@@ -37,6 +37,7 @@ struct PixelSlamOptions {
   ekf::Initialization init = ekf::Initialization::kDelayed;
   ekf::DepthPrior depth;
   int most_candidates = 8;
+  int least_pictures = 8;    ///< in which a candidate is seen before it is accepted at all
   int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
   double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
 };
@@ -127,6 +128,8 @@ class PixelSlam final : public Filter {
   void confirm(std::size_t index, std::span<const Observation> observations);
   void begin(std::size_t index, const Observation& observation);
   [[nodiscard]] ekf::DepthParticles::Spread unknown_depth() const;
+  [[nodiscard]] ekf::DepthParticles::Spread inverse_depth(int feature) const;
+  [[nodiscard]] bool free_an_anchor();
   void drop(Candidate& candidate);
   void retire();
   [[nodiscard]] bool make_room();
