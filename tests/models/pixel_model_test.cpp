@@ -90,101 +90,92 @@ TEST(PointObservation, IsNothingBehindOrInTheCamera) {
 /// The point of a scene, seen first from where the robot is, and another pose from which it is in front too.
 struct TwoViews {
   explicit TwoViews(RandomStream& random) : s(random) {
-    const auto made =
-        locate_inverse_depth(s.camera, s.pose, s.pixel, 1.0 / (s.p_world - s.pose.p_world_camera).norm());
-    point = made->point;
+    const Eigen::Vector3d p_camera = s.pose.R_camera_world * (s.p_world - s.pose.p_world_camera);
+    ray << p_camera.head<2>() / p_camera.z(), 1.0 / p_camera.z();
     x_second = to_vector(s.T_world_robot);
     for (auto& x : x_second) x += random.uniform(-0.1, 0.1);
   }
 
   Scene s;
-  InverseDepthPoint point;
+  Eigen::Vector3d ray;
   Eigen::Vector3d x_second;
 };
 
-TEST(InverseDepth, LiesOnTheRayAtItsDistance) {
-  RandomStream random(3, StreamPurpose::kWorld);
-  for (int i = 0; i < 200; ++i) {
-    const TwoViews v(random);
-    EXPECT_TRUE(matrix_near(v.point.p_world(), v.s.p_world, 1e-9));
-    EXPECT_NEAR(v.point.direction().norm(), 1.0, 1e-12);
-  }
-}
-
-TEST(InverseDepth, IsSeenWhereItsPointIsSeen) {
+TEST(RayObservation, IsSeenWhereItsPointIsSeen) {
   RandomStream random(4, StreamPurpose::kWorld);
   for (int i = 0; i < 200; ++i) {
     const TwoViews v(random);
+    EXPECT_TRUE(matrix_near(point_of_ray(v.s.pose, v.ray).p_world, v.s.p_world, 1e-9));
     const auto pose = v.s.camera.pose(to_pose(v.x_second));
     const auto as_point = observe_point(v.s.camera, pose, v.s.p_world);
-    const auto h = observe_inverse_depth(v.s.camera, pose, v.point);
+    const auto h = observe_ray(v.s.camera, pose, v.s.pose, v.ray);
     ASSERT_EQ(as_point.has_value(), h.has_value());
     if (!h) continue;
     EXPECT_TRUE(matrix_near(h->predicted, as_point->predicted, 1e-7));
-    EXPECT_TRUE(matrix_near(h->p_camera, v.point.y[4] * as_point->p_camera, 1e-9));
+    EXPECT_TRUE(matrix_near(h->p_camera, v.ray[2] * as_point->p_camera, 1e-9));
   }
 }
 
-TEST(InverseDepth, JacobiansAgreeWithCentralDifferences) {
+TEST(RayObservation, JacobiansAgreeWithCentralDifferences) {
   RandomStream random(5, StreamPurpose::kWorld);
   int seen = 0;
   for (int i = 0; i < 300; ++i) {
     const TwoViews v(random);
     const Camera& camera = v.s.camera;
     const auto pose = camera.pose(to_pose(v.x_second));
-    const auto h = observe_inverse_depth(camera, pose, v.point);
+    const auto h = observe_ray(camera, pose, v.s.pose, v.ray);
     if (!h || h->p_camera.z() < 0.2) continue;  // near the camera's plane pixels run away
     ++seen;
     const auto by_pose = [&](const Eigen::Vector3d& x) {
-      return observe_inverse_depth(camera, camera.pose(to_pose(x)), v.point)->predicted;
+      return observe_ray(camera, camera.pose(to_pose(x)), v.s.pose, v.ray)->predicted;
     };
-    const auto by_landmark = [&](const InverseDepthPoint::Parameters& y) {
-      return observe_inverse_depth(camera, pose, {y, v.point.anchor_z_m})->predicted;
+    const auto by_anchor = [&](const Eigen::Vector3d& x) {
+      return observe_ray(camera, pose, camera.pose(to_pose(x)), v.ray)->predicted;
     };
-    const auto as_point = [&](const InverseDepthPoint::Parameters& y) {
-      return InverseDepthPoint{y, v.point.anchor_z_m}.p_world();
+    const auto by_ray = [&](const Eigen::Vector3d& ray) {
+      return observe_ray(camera, pose, v.s.pose, ray)->predicted;
     };
+    const Eigen::Vector3d x_first = to_vector(v.s.T_world_robot);
     EXPECT_TRUE(matrix_near(h->H_pose, numeric_jacobian(by_pose, v.x_second), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(h->H_landmark, numeric_jacobian(by_landmark, v.point.y), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(v.point.jacobian(), numeric_jacobian(as_point, v.point.y), 1e-4));
+    EXPECT_TRUE(matrix_near(h->H_anchor, numeric_jacobian(by_anchor, x_first), kJacobianTolerance));
+    EXPECT_TRUE(matrix_near(h->H_ray, numeric_jacobian(by_ray, v.ray), kJacobianTolerance));
   }
   EXPECT_GT(seen, 200);
 }
 
-TEST(InverseDepth, NewPointDependsOnPoseAndPixelAsItsJacobiansSay) {
+TEST(RayObservation, PointDependsOnAnchorAndRayAsItsJacobiansSay) {
   RandomStream random(6, StreamPurpose::kWorld);
   for (int i = 0; i < 300; ++i) {
-    const Scene s(random);
-    const auto made = locate_inverse_depth(s.camera, s.pose, s.pixel, 0.5);
-    ASSERT_TRUE(made);
-    const auto change = [&](const CameraPose& pose, const Eigen::Vector2d& pixel) {
-      InverseDepthPoint::Parameters dy =
-          locate_inverse_depth(s.camera, pose, pixel, 0.5)->point.y - made->point.y;
-      dy[2] = wrap_angle(dy[2]);
-      return dy;
+    const TwoViews v(random);
+    const auto by_anchor = [&](const Eigen::Vector3d& x) {
+      return point_of_ray(v.s.camera.pose(to_pose(x)), v.ray).p_world;
     };
-    const auto by_pose = [&](const Eigen::Vector3d& x) { return change(s.camera.pose(to_pose(x)), s.pixel); };
-    const auto by_pixel = [&](const Eigen::Vector2d& pixel) { return change(s.pose, pixel); };
-    EXPECT_TRUE(matrix_near(made->G_pose, numeric_jacobian(by_pose, to_vector(s.T_world_robot)), 1e-7));
-    EXPECT_TRUE(matrix_near(made->G_pixel, numeric_jacobian(by_pixel, s.pixel, 1e-4), 1e-7));
+    const auto by_ray = [&](const Eigen::Vector3d& ray) { return point_of_ray(v.s.pose, ray).p_world; };
+    const RayPoint point = point_of_ray(v.s.pose, v.ray);
+    EXPECT_TRUE(matrix_near(point.J_anchor, numeric_jacobian(by_anchor, to_vector(v.s.T_world_robot)), 1e-5));
+    EXPECT_TRUE(matrix_near(point.J_ray, numeric_jacobian(by_ray, v.ray), 1e-4));
   }
 }
 
-TEST(InverseDepth, APointAtInfinityIsSeenAlongItsRayFromAnywhere) {
+TEST(RayObservation, APointAtInfinityIsSeenAlongItsRayFromAnywhere) {
   const Camera camera;
-  const InverseDepthPoint point{{1.0, 2.0, 0.1, 0.05, 0.0}, 0.3};
-  const auto here = observe_inverse_depth(camera, camera.pose({1.0, 2.0, 0.2}), point);
-  const auto there = observe_inverse_depth(camera, camera.pose({9.0, -7.0, 0.2}), point);
+  const Eigen::Vector3d ray(0.1, 0.05, 0.0);
+  const auto anchor = camera.pose({1.0, 2.0, 0.2});
+  const auto here = observe_ray(camera, anchor, anchor, ray);
+  const auto there = observe_ray(camera, camera.pose({9.0, -7.0, 0.2}), anchor, ray);
   ASSERT_TRUE(here && there);
   EXPECT_TRUE(matrix_near(here->predicted, there->predicted, 1e-9));
-  EXPECT_TRUE(here->H_landmark.allFinite());
+  EXPECT_TRUE(here->H_ray.allFinite());
 }
 
-TEST(InverseDepth, LinearityIndexIsItsFormulaAndFallsWithParallax) {
+TEST(RayObservation, LinearityIndexIsItsFormulaAndFallsWithParallax) {
   // First seen from the origin along x at 4 m, then from the side under a parallax of 45 degrees.
-  const InverseDepthPoint point{{0.0, 0.0, 0.0, 0.0, 0.25}, 0.3};
-  const double ahead = linearity_index(point, 0.05, {0.0, 0.0, 0.3});
-  const double aside = linearity_index(point, 0.05, {0.0, 4.0, 0.3});
+  const Camera camera;
+  const CameraPose anchor = camera.pose({});
+  const Eigen::Vector3d ray(0.0, 0.0, 0.25);
+  const double ahead = linearity_index(anchor, ray, 0.05, anchor.p_world_camera);
+  const double aside =
+      linearity_index(anchor, ray, 0.05, anchor.p_world_camera + Eigen::Vector3d(0.0, 4.0, 0.0));
   EXPECT_NEAR(ahead, 4.0 * 0.05 * 16.0 / 4.0, 1e-12);
   EXPECT_NEAR(aside, ahead * std::sqrt(0.5) / std::sqrt(2.0), 1e-12);
 }

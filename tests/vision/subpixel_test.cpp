@@ -59,6 +59,24 @@ TEST(Subpixel, ErrorIsATenthOfAPixelWhereTextureIsStrong) {
   }
 }
 
+TEST(Subpixel, AChangeOfContrastLeavesNothing) {
+  RandomStream random(4, StreamPurpose::kWorld);
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  const test::SmoothTexture texture(random);
+  const GreyImage then = texture.seen(40, 40, I, {0.0, 0.0}, 0.0, random);
+  const auto left_at = [&](double contrast) {
+    GreyImage now(40, 40);
+    for (int v = 0; v < 40; ++v)
+      for (int u = 0; u < 40; ++u)
+        now(u, v) = static_cast<std::uint8_t>(std::lround(90.0 + contrast * (then(u, v) - 128.0)));
+    return find_peak(now, *cut_patch(then, 20, 20, 16), 20, 20, 3.0)->zmssd;
+  };
+  EXPECT_LT(left_at(1.0), 100.0);
+  EXPECT_LT(left_at(0.7), 100.0);  // of 256 pixels with rounding errors
+  EXPECT_LT(left_at(0.6), 100.0);
+  EXPECT_GT(left_at(0.3), 1000.0);
+}
+
 TEST(Subpixel, AnEdgeAndABlankWallHaveNoPeak) {
   GreyImage edge(40, 40), wall(40, 40, 128);
   for (int v = 0; v < 40; ++v)

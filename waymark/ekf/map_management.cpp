@@ -51,6 +51,12 @@ void MapManagement::removed(int landmark) {
   records_.pop_back();
 }
 
+bool MapManagement::keeps_failing(int landmark) const {
+  constexpr int kLeastAttempts = 10;
+  const Record& record = records_[static_cast<std::size_t>(landmark)];
+  return record.sightings >= kLeastAttempts && 2 * record.matches < record.sightings;
+}
+
 double MapManagement::usefulness(const Record& record) const {
   if (eviction_ == Eviction::kArticle || record.sightings == 0) return record.gain;
   return record.gain * record.matches / record.sightings;

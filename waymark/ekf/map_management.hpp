@@ -50,6 +50,9 @@ class MapManagement {
   /// The landmark was removed and the last one took its index.
   void removed(int landmark);
 
+  /// Whether the landmark was missed in more than half of at least ten attempts.
+  [[nodiscard]] bool keeps_failing(int landmark) const;
+
   /// Which one to evict; nothing if all landmarks belong to the present scan. O(landmarks).
   [[nodiscard]] std::optional<int> least_useful() const;
 

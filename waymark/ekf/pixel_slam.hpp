@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -7,13 +8,37 @@
 #include "waymark/core/expectation.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/agreement.hpp"
+#include "waymark/ekf/depth_particles.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+#include "waymark/ekf/map_management.hpp"
+#include "waymark/ekf/pixel_map.hpp"
 #include "waymark/models/camera.hpp"
 
 namespace waymark {
 
+namespace ekf {
+
+/// When a point that was seen once takes part in the estimate.
+enum class Initialization {
+  kDelayed,       ///< once particles have found out its depth, as a ray (Davison 2003)
+  kInverseDepth,  ///< at once, as a ray of unsure depth (Civera, Davison, Montiel 2008)
+  kArticle        ///< once particles have found out its depth, as a point (Vincke et al. 2012)
+};
+
+}  // namespace ekf
+
 struct PixelSlamOptions {
-  int capacity = 100;  ///< most landmarks in the map
+  int capacity = 100;              ///< most landmarks in the map
+  double sigma_px = 0.5;           ///< of pixels that came without covariance
+  double model_sigma_px = 0.15;    ///< what every pixel is off besides: lens, warp, plane
+  double vibration_deg = 0.05;     ///< of the camera's pitch and roll, anew in every picture
+  double gate_probability = 0.99;  ///< part of the true sightings that may pass
+  ekf::Initialization init = ekf::Initialization::kDelayed;
+  ekf::DepthPrior depth;
+  int most_candidates = 8;
+  int most_pictures = 60;    ///< that a candidate may take
+  double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
 };
 
 void describe(Schema& schema, PixelSlamOptions& options);
@@ -23,23 +48,108 @@ void describe(Schema& schema, PixelSlamOptions& options);
 /// A pixel with an identity that is not known begins a candidate, whose distance later pixels find out.
 class PixelSlam final : public Filter {
  public:
-  PixelSlam(const PixelSlamOptions& options, const GateOptions& gate, const CameraOptions& camera);
+  PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, const CameraOptions& camera,
+            int threads = 1);
 
   void predict(const Motion& motion) override;
-  /// Landmarks and candidates that should be in the picture, at the present pose. Valid until the next call
-  /// of anything that changes the filter.
+  /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
+  /// once per picture. Valid until the next call of anything that changes the filter.
   [[nodiscard]] std::span<const Expectation> expect();
   /// Looked for where it was expected, and not found.
   void missed(std::span<const LandmarkId> landmarks);
   /// Pixel observations; may be called several times per picture. Correction::removed names those (landmarks
-  /// and candidates) that nobody needs to look for any more.
+  /// and candidates) that nobody needs to look for any more since the picture began.
   const Correction& correct(std::span<const Observation> observations) override;
-  [[nodiscard]] PoseEstimate pose() const override;
+  [[nodiscard]] PoseEstimate pose() const override { return map_.state().pose(); }
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
 
+  [[nodiscard]] const ekf::PixelMap& map() const { return map_; }
+  [[nodiscard]] int candidates() const;
+
  private:
+  /// Something seen, whose depth particles find out.
+  struct Candidate {
+    LandmarkId id;
+    int anchor = -1;                               ///< below 0: a free slot
+    Eigen::Vector2d xy = Eigen::Vector2d::Zero();  ///< its ray, in the camera of the anchor
+    Eigen::Matrix2d xy_covariance = Eigen::Matrix2d::Zero();
+    ekf::DepthParticles depths;
+    int pictures = 0;
+    int looks = 0;
+    int matches = 0;
+  };
+  /// A sighting with where it was expected and the point in the camera frame.
+  struct Sight {
+    ekf::Sighting sighting;
+    Eigen::Vector2d predicted;
+    Eigen::Vector3d p_camera;
+  };
+  /// The joint covariance of robot and anchor, and their places: what a candidate's pixel depends on.
+  struct Baseline {
+    CameraPose here, anchor;
+    Eigen::Matrix<double, 6, 6> P;
+  };
+  struct PredictedPixel {
+    Eigen::Vector2d pixel;
+    Eigen::Matrix2d S;
+  };
+
+  void begin_picture();
+  [[nodiscard]] ekf::ErrorTerms vibration(const Eigen::Vector3d& p_camera, double sign) const;
+  [[nodiscard]] Eigen::Matrix2d noise(const Observation& observation) const;
+
+  template <class Values>
+  [[nodiscard]] std::optional<Sight> look(const ekf::PixelMap::Feature& feature, const Pose2& T_world_robot,
+                                          const Values& values) const;
+  [[nodiscard]] std::optional<Sight> sight(int feature) const;
+  [[nodiscard]] bool is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const;
+  void expect_feature(int feature);
+  void expect_candidate(const Candidate& candidate);
+
+  [[nodiscard]] Baseline baseline(const Candidate& candidate) const;
+  [[nodiscard]] std::optional<PredictedPixel> predict_pixel(const Candidate& candidate,
+                                                            const Baseline& baseline, double rho) const;
+
+  void sort_out(std::size_t index, const Observation& observation);
+  void update(std::span<const Observation> observations);
+  void collect(std::size_t index, const Observation& observation);
+  [[nodiscard]] bool settle(std::size_t index, const Observation& observation);
+  void update_agreeing(std::span<const Observation> observations);
+  [[nodiscard]] bool apply(std::span<const Observation> observations);
+  [[nodiscard]] bool relinearize(std::span<const Observation> observations);
+  void rescue(std::span<const Observation> observations);
+  void book(std::size_t index);
+  void settle_rays();
+  void weigh(std::size_t index, std::span<const Observation> observations);
+  void accept(Candidate& candidate, std::size_t index, std::span<const Observation> observations);
+  void confirm(std::size_t index, std::span<const Observation> observations);
+  void begin(std::size_t index, const Observation& observation);
+  void drop(Candidate& candidate);
+  void retire();
+  [[nodiscard]] bool make_room();
+  void remove(int feature);
+  [[nodiscard]] Candidate* find_candidate(LandmarkId id);
+
+  PixelSlamOptions options_;
+  Camera camera_;
+  ekf::PixelMap map_;
+  ekf::MapManagement management_;
+  ekf::Agreement agreement_;
+  double gate_;
+  std::vector<Candidate> candidates_;
+  std::optional<int> anchor_;  ///< of what begins in this picture
+  bool in_picture_ = false;
+
+  std::vector<Expectation> expectations_;
+  std::vector<Innovation> innovations_;
+  std::vector<ekf::Sighting> sightings_;
+  std::vector<Eigen::Vector2d> nus_;
+  std::vector<std::size_t> seen_;       // the observations of the block
+  std::vector<std::size_t> used_;       // those that are in the update
+  std::vector<ekf::Sighting> refined_;  // linearised where the update leads
+  std::vector<LandmarkId> removed_;
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict",  "FB3 project", "FB5 Jacobians",
                          "FB6 estimate", "FB8 weights", "FB9 add"};

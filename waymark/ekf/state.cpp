@@ -29,6 +29,7 @@ State::State(int dimension, int capacity, Consistency consistency, int threads, 
       ld_(kernels::padded_stride(offset(capacity))),
       x_(ld_),
       first_(ld_),
+      relative_(static_cast<std::size_t>(capacity), 0),
       P_(ld_ * ld_),
       W_(ld_ * kMaxSightings * 2),
       dx_(ld_),
@@ -146,11 +147,10 @@ Eigen::Vector2d State::join_robot_rows() {
 }
 
 Touched State::touched(const Sighting& sighting, int rows) const {
-  Touched t(sighting.H_pose.topRows(rows), sighting.errors, dimension_);
-  t.J.rightCols(dimension_) = sighting.H_landmark.topLeftCorner(rows, dimension_);
-  for (int k = 0; k < dimension_; ++k)
-    t.rows[static_cast<std::size_t>(t.head) + static_cast<std::size_t>(k)] =
-        offset(sighting.landmark) + static_cast<std::size_t>(k);
+  const bool anchored = sighting.anchor >= 0;
+  Touched t(sighting.H_pose.topRows(rows), sighting.errors, (anchored ? 2 : 1) * dimension_);
+  t.set_landmark(t.head, offset(sighting.landmark), dimension_, sighting.H_landmark);
+  if (anchored) t.set_landmark(t.head + dimension_, offset(sighting.anchor), dimension_, sighting.H_anchor);
   return t;
 }
 
@@ -212,7 +212,8 @@ Pose2 State::proposed_pose() const {
 
 Eigen::Vector3d State::proposed_landmark(int index) const {
   Eigen::Vector3d dx = point(dx_, index);
-  dx.head<2>() = (increment_jacobian() * dx.head<2>()).eval();
+  if (relative_[static_cast<std::size_t>(index)] == 0)
+    dx.head<2>() = (increment_jacobian() * dx.head<2>()).eval();
   return landmark(index) + dx;
 }
 
@@ -222,7 +223,10 @@ Eigen::Vector2d State::proposed_expected(const ErrorTerms& terms) const {
 
 Eigen::Vector2d State::explained(const Sighting& sighting) const {
   return sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
-         sighting.H_landmark * point(dx_, sighting.landmark) + error_part(sighting.errors, dx_);
+         sighting.H_landmark * point(dx_, sighting.landmark) +
+         (sighting.anchor < 0 ? Eigen::Vector2d::Zero()
+                              : (sighting.H_anchor * point(dx_, sighting.anchor)).eval()) +
+         error_part(sighting.errors, dx_);
 }
 
 /// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
@@ -232,9 +236,14 @@ Sighting State::moved_back(const Sighting& sighting) const {
   Sighting back = sighting;
   if (consistency_ == Consistency::kInvariant) {
     const Eigen::Matrix2d V = turn_jacobian(dx_[2]);
-    back.H_pose.col(2) +=
-        sighting.H_pose.leftCols<2>() * perpendicular(V * Eigen::Vector2d(dx_[0], dx_[1])) +
-        sighting.H_landmark.leftCols<2>() * perpendicular(V * point(dx_, sighting.landmark).head<2>());
+    const auto turned = [&](const Eigen::Matrix<double, 2, 3>& H, const Eigen::Vector2d& dx) {
+      return (H.leftCols<2>() * perpendicular(V * dx)).eval();
+    };
+    back.H_pose.col(2) += turned(sighting.H_pose, {dx_[0], dx_[1]});
+    if (relative_[static_cast<std::size_t>(sighting.landmark)] == 0)
+      back.H_pose.col(2) += turned(sighting.H_landmark, point(dx_, sighting.landmark).head<2>());
+    if (sighting.anchor >= 0)
+      back.H_pose.col(2) += turned(sighting.H_anchor, point(dx_, sighting.anchor).head<2>());
   }
   back.nu += explained(back);
   return back;
@@ -252,6 +261,16 @@ std::size_t State::project(std::span<const Sighting> sightings) {
     row += rows;
   }
   return row;
+}
+
+Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
+           Eigen::OuterStride<>>
+State::joint_innovation_covariance(std::span<const Sighting> sightings) {
+  assert(sightings.size() <= kMaxSightings);
+  join_robot_rows();
+  const auto rows = static_cast<int>(project(sightings));
+  form_innovation_covariance(sightings, rows);
+  return S_.topLeftCorner(rows, rows);
 }
 
 /// The lower triangle of S = C H^T + R.
@@ -308,8 +327,13 @@ void State::apply_invariantly() {
   x_[2] = wrap_angle(x_[2] + turn);
   for (std::size_t j = 3; j < head_; ++j) x_[j] += dx_[j];
   for (int i = 0; i < landmarks_; ++i) {
-    move(offset(i));
-    if (dimension_ == 3) x_[offset(i) + 2] += dx_[offset(i) + 2];
+    const std::size_t at = offset(i);
+    if (relative_[static_cast<std::size_t>(i)] != 0) {
+      for (std::size_t k = at; k < at + 2; ++k) x_[k] += dx_[k];
+    } else {
+      move(at);
+    }
+    if (dimension_ == 3) x_[at + 2] += dx_[at + 2];
   }
   linearization_pose_ = {x_[0], x_[1], x_[2]};
   correct_covariance(true);
@@ -378,7 +402,44 @@ int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first,
     x_[at] = position[a];
     first_[at] = first[a];
   }
+  relative_[static_cast<std::size_t>(landmarks_)] = 0;
   return landmarks_++;
+}
+
+int State::add_pose() {
+  assert(dimension_ == 3);
+  return add({x_[0], x_[1], x_[2]}, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero());
+}
+
+int State::add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
+                        const ErrorTerms& errors) {
+  const int index = add(values, Eigen::Matrix3d::Zero(), noise, errors);
+  relative_[static_cast<std::size_t>(index)] = 1;
+  return index;
+}
+
+void State::make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
+                          const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark) {
+  join_robot_rows();
+  Touched t(Eigen::Matrix3d::Zero(), {}, 6);
+  t.set_landmark(t.head, offset(landmark), 3, G_landmark);
+  t.set_landmark(t.head + 3, offset(anchor), 3, G_anchor);
+  kernels::project_rows(P_.data(), ld_, size(), t.rows.data(), t.size(), t.J.data(), 3, W_.data(), ld_);
+  const std::size_t at = offset(landmark);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (int a = 0; a < 3; ++a)
+    for (int k = 0; k < t.J.cols(); ++k)
+      covariance.row(a) += W_[static_cast<std::size_t>(a) * ld_ + t.rows[static_cast<std::size_t>(k)]] *
+                           t.J.col(k).transpose();
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t j = 0; j < size(); ++j)
+      P_[std::min(at + a, j) * ld_ + std::max(at + a, j)] = W_[a * ld_ + j];
+    x_[at + a] = first_[at + a] = position[static_cast<int>(a)];
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = a; b < 3; ++b)
+      P_[(at + a) * ld_ + at + b] = covariance(static_cast<int>(a), static_cast<int>(b));
+  relative_[static_cast<std::size_t>(landmark)] = 0;
 }
 
 void State::remove(int index) {
@@ -391,6 +452,7 @@ void State::remove(int index) {
     kernels::move_block(P_.data(), ld_, size(), from, to, d);
     std::copy_n(&x_[from], d, &x_[to]);
     std::copy_n(&first_[from], d, &first_[to]);
+    relative_[static_cast<std::size_t>(index)] = relative_[static_cast<std::size_t>(landmarks_ - 1)];
   }
   --landmarks_;
 }

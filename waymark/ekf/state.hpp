@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,13 +23,16 @@ enum class Consistency {
 
 /// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
 /// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count. `errors` says
-/// which lasting errors of the sensor are in z.
+/// which lasting errors of the sensor are in z. Where the landmark is relative to another one, `anchor` names
+/// that and H_anchor is the Jacobian to it.
 struct Sighting {
   int landmark = 0;
+  int anchor = -1;
   int rows = 2;
   Eigen::Vector2d nu = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 3> H_pose = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 3> H_landmark = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix<double, 2, 3> H_anchor = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
   ErrorTerms errors = {};
 };
@@ -48,8 +52,9 @@ struct Gain {
 };
 
 /// The state vector (x, y, theta, lasting errors, landmark 1, landmark 2, ...) with its covariance, and the
-/// only code that writes either. Landmarks are 2-D or 3-D. Memory for `capacity` landmarks is taken once;
-/// nothing here allocates later.
+/// only code that writes either. Landmarks are 2-D or 3-D; in a 3-D state what stands in the place of a
+/// landmark may as well be a pose that the robot once had, or be relative to such a pose. Memory for
+/// `capacity` landmarks is taken once; nothing here allocates later.
 ///
 /// Lasting errors are what successive sightings have in common that is neither the robot's nor the map's
 /// doing. They come in pairs of independent unit variance at most; what a pair stands for, and how large it
@@ -129,6 +134,26 @@ class State {
   int insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const double* cross,
              std::size_t ld, const Eigen::Matrix3d& covariance);
 
+  /// Appends the robot's present pose (x, y, theta), so that something seen from here can be relative to it.
+  /// 3-D states only; the map must not be full.
+  int add_pose();
+
+  /// Appends values that hold relative to another landmark, so that no turn of the world changes them.
+  /// `errors` as dg/derrors.
+  int add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
+                   const ErrorTerms& errors = {});
+
+  /// What a relative landmark and the pose it is relative to say together, as an ordinary landmark in the
+  /// place of the former: position = g(anchor, landmark) with its Jacobians.
+  void make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
+                     const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark);
+
+  /// S of all these sightings together, lower triangle, and its size: for those who ask which of them agree.
+  /// Drops what was proposed. A view, good until the next call that changes or proposes anything.
+  [[nodiscard]] Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
+                           Eigen::OuterStride<>>
+  joint_innovation_covariance(std::span<const Sighting> sightings);
+
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);
 
@@ -186,13 +211,14 @@ class State {
   int landmarks_ = 0;
   std::size_t ld_;
 
-  Buffer x_;        // n: the mean
-  Buffer first_;    // n: first estimates of the landmarks (kFej)
-  Buffer P_;        // n x n, upper triangle
-  Buffer W_;        // D x n: H P, then L^-1 H P
-  Buffer dx_;       // n: K nu
-  Buffer shear_d_;  // n: d of the shear
-  Buffer shear_e_;  // n: c + c_th/2 d
+  Buffer x_;                    // n: the mean
+  Buffer first_;                // n: first estimates of the landmarks (kFej)
+  std::vector<char> relative_;  // by landmark: turns of the world leave it alone
+  Buffer P_;                    // n x n, upper triangle
+  Buffer W_;                    // D x n: H P, then L^-1 H P
+  Buffer dx_;                   // n: K nu
+  Buffer shear_d_;              // n: d of the shear
+  Buffer shear_e_;              // n: c + c_th/2 d
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, L after factorize()
   Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
   std::size_t rows_ = 0;                                                      // D of the last proposal

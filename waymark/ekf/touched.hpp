@@ -24,11 +24,11 @@ using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 [[nodiscard]] constexpr std::size_t error_offset(int pair) { return 3 + 2 * static_cast<std::size_t>(pair); }
 
 /// What something linear depends on: rows of the state, and its Jacobian to them. First the robot, then
-/// lasting errors, then a landmark.
+/// lasting errors, then landmarks.
 struct Touched {
-  static constexpr int kMost = 6 + 2 * kErrorTerms;
+  static constexpr int kMost = 9 + 2 * kErrorTerms;
 
-  /// The robot and the errors, with `landmark` columns of zeros for a landmark's rows, which are not set.
+  /// The robot and the errors, with `landmark` columns of zeros for landmarks' rows, which are not set.
   template <class JacobianToPose>
   Touched(const JacobianToPose& J_pose, const ErrorTerms& errors, int landmark = 0) : rows{0, 1, 2} {
     const auto pairs = static_cast<int>(std::ranges::count_if(errors, &ErrorTerm::takes_part));
@@ -44,11 +44,19 @@ struct Touched {
     }
   }
 
+  /// Sets the `count` columns from `column` on to those of a landmark at row `offset` of the state.
+  template <class JacobianToLandmark>
+  void set_landmark(int column, std::size_t offset, int count, const JacobianToLandmark& J_landmark) {
+    J.middleCols(column, count) = J_landmark.topLeftCorner(J.rows(), count);
+    for (int k = 0; k < count; ++k)
+      rows[static_cast<std::size_t>(column + k)] = offset + static_cast<std::size_t>(k);
+  }
+
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(J.cols()); }
 
   std::array<std::size_t, kMost> rows;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 3, kMost> J;
-  int head;  ///< columns before the landmark's
+  int head;  ///< columns before the landmarks'
 };
 
 }  // namespace waymark::ekf

@@ -9,61 +9,48 @@
 
 namespace waymark {
 
-/// A pixel observation linearised at a robot pose and a landmark of Dim parameters.
-template <int Dim>
+/// A pixel observation linearised at a robot pose and a point.
 struct PixelLinearization {
-  Eigen::Vector2d predicted;                 ///< px
-  Eigen::Matrix<double, 2, 3> H_pose;        ///< d(u, v)/d(x, y, theta) of the robot
-  Eigen::Matrix<double, 2, Dim> H_landmark;  ///< d(u, v)/d(landmark)
-  Eigen::Vector3d p_camera;                  ///< the landmark in the camera frame, m
+  Eigen::Vector2d predicted;               ///< px
+  Eigen::Matrix<double, 2, 3> H_pose;      ///< d(u, v)/d(x, y, theta) of the robot
+  Eigen::Matrix<double, 2, 3> H_landmark;  ///< d(u, v)/d(x, y, z) of the point
+  Eigen::Vector3d p_camera;                ///< the point in the camera frame, m
 };
 
 /// A point in the world (x, y, z up) seen by a camera on a robot on the plane (Vincke et al. 2012, equations
 /// 7 to 9, for any mount and lens): p_camera = R_camera_world (p - c). Nothing where it cannot be seen.
-[[nodiscard]] std::optional<PixelLinearization<3>> observe_point(const Camera& camera,
-                                                                 const CameraPose& camera_pose,
-                                                                 const Eigen::Vector3d& p_world);
+[[nodiscard]] std::optional<PixelLinearization> observe_point(const Camera& camera,
+                                                              const CameraPose& camera_pose,
+                                                              const Eigen::Vector3d& p_world);
 
-/// A point by the ray along which it was first seen and its inverse distance on it (Civera, Davison, Montiel
-/// 2008): p = a + m/rho, m = (cos psi cos phi, cos psi sin phi, sin psi). The ray starts where the camera
-/// was; its height is always that of the mount, so that five parameters do.
-struct InverseDepthPoint {
-  /// (a_x, a_y, phi, psi, rho): anchor in m, azimuth counter-clockwise from the world's x axis, elevation,
-  /// 1/m.
-  using Parameters = Eigen::Matrix<double, 5, 1>;
-
-  Parameters y = Parameters::Zero();
-  double anchor_z_m = 0.0;
-
-  [[nodiscard]] Eigen::Vector3d anchor() const { return {y[0], y[1], anchor_z_m}; }
-  [[nodiscard]] Eigen::Vector3d direction() const;
-  /// Infinite where rho is 0.
-  [[nodiscard]] Eigen::Vector3d p_world() const { return anchor() + direction() / y[4]; }
-  /// d p_world / d y.
-  [[nodiscard]] Eigen::Matrix<double, 3, 5> jacobian() const;
+/// A point by where it was first seen (Civera, Davison, Montiel 2008): ray = (x, y, rho) in the frame of the
+/// camera of then, p = (x, y, 1)/rho. That camera stood on an anchor, a pose of the robot that all points
+/// share that were first seen in one picture. Seen from a camera with p_camera ~ R_cw [rho (c_anchor - c) +
+/// R_wc_anchor (x, y, 1)]: finite down to rho = 0, a point at infinity.
+struct RayLinearization {
+  Eigen::Vector2d predicted;             ///< px
+  Eigen::Matrix<double, 2, 3> H_pose;    ///< d(u, v)/d(x, y, theta) of the robot
+  Eigen::Matrix<double, 2, 3> H_anchor;  ///< d(u, v)/d(x, y, theta) of the robot then
+  Eigen::Matrix<double, 2, 3> H_ray;     ///< d(u, v)/d(x, y, rho)
+  Eigen::Vector3d p_camera;              ///< rho times the point in the camera frame
 };
+[[nodiscard]] std::optional<RayLinearization> observe_ray(const Camera& camera, const CameraPose& camera_pose,
+                                                          const CameraPose& anchor,
+                                                          const Eigen::Vector3d& ray);
 
-/// The same measurement of such a point: it stays finite down to rho = 0, a point at infinity. `p_camera` is
-/// its direction, of length 1 at infinity: rho p_camera.
-[[nodiscard]] std::optional<PixelLinearization<5>> observe_inverse_depth(const Camera& camera,
-                                                                         const CameraPose& camera_pose,
-                                                                         const InverseDepthPoint& point);
-
-/// A new point on the ray of a pixel, and its Jacobians to the robot's pose, the pixel and rho.
-struct NewInverseDepthPoint {
-  InverseDepthPoint point;
-  Eigen::Matrix<double, 5, 3> G_pose;
-  Eigen::Matrix<double, 5, 2> G_pixel;  ///< and d y / d rho = (0, 0, 0, 0, 1)
+/// The point of a ray in the world, and its Jacobians to the anchor's (x, y, theta) and to the ray. rho must
+/// be positive.
+struct RayPoint {
+  Eigen::Vector3d p_world;
+  Eigen::Matrix3d J_anchor;
+  Eigen::Matrix3d J_ray;
 };
-[[nodiscard]] std::optional<NewInverseDepthPoint> locate_inverse_depth(const Camera& camera,
-                                                                       const CameraPose& camera_pose,
-                                                                       const Eigen::Vector2d& pixel,
-                                                                       double rho_per_m);
+[[nodiscard]] RayPoint point_of_ray(const CameraPose& anchor, const Eigen::Vector3d& ray);
 
 /// How far from linear the observation is within the uncertainty of rho (Civera, Davison, Montiel 2008):
-/// L = 4 sigma_d |cos alpha| / d with sigma_d = sigma_rho/rho^2, alpha the parallax angle and d the distance
-/// from the camera. Below 0.1 the point can be kept as (x, y, z).
-[[nodiscard]] double linearity_index(const InverseDepthPoint& point, double rho_sigma_per_m,
-                                     const Eigen::Vector3d& p_world_camera);
+/// L = 4 sigma_d |cos alpha| / d with sigma_d that of the distance from the anchor, alpha the parallax angle
+/// and d the distance from the camera. Below 0.1 the point can be kept as (x, y, z).
+[[nodiscard]] double linearity_index(const CameraPose& anchor, const Eigen::Vector3d& ray,
+                                     double rho_sigma_per_m, const Eigen::Vector3d& p_world_camera);
 
 }  // namespace waymark

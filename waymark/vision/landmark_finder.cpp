@@ -39,7 +39,7 @@ Finding LandmarkFinder::look_for(const Expectation& expected, const ImageView& i
   finding.cost_ns += costs_.window_ns * static_cast<double>(search_.windows());
   if (!match) return finding;
   finding.pixel = Eigen::Vector2d(match->u, match->v);
-  if (match->accepted) locate(image, patch, *match, finding);
+  locate(image, patch, *match, finding);
   if (finding.result != Look::Result::kFound && should_be_seen(expected, image, patch.size))
     finding.result = Look::Result::kMissed;
   return finding;
@@ -60,14 +60,16 @@ bool LandmarkFinder::redraw(const Expectation& expected, const CameraPose& here,
 void LandmarkFinder::locate(const ImageView& image, const Patch& patch, const Match& match,
                             Finding& finding) const {
   if (!options_.subpixel) {
-    finding.result = Look::Result::kFound;
+    if (match.accepted) finding.result = Look::Result::kFound;
     finding.R = whole_pixel_covariance();
     return;
   }
   finding.cost_ns += costs_.peak_ns;
   const auto peak =
       find_peak(image, patch, match.u, match.v, search_options_.grey_sigma, search_options_.instructions);
-  if (!peak) return;
+  // At the peak there is no half pixel to be forgiven: what is left comes of surfaces that are not flat.
+  if (!peak || peak->zmssd > search_options_.accept_ratio * expected_zmssd(patch, search_options_.grey_sigma))
+    return;
   finding.result = Look::Result::kFound;
   finding.pixel = peak->pixel;
   finding.R = peak->R;

@@ -32,8 +32,9 @@ class LandmarkFinder {
   /// What look_for() will take.
   [[nodiscard]] double expected_cost_ns(const Expectation& expected) const;
 
-  /// In a picture that was taken from `here`. It counts as missed where its whole patch should be in the
-  /// picture but no place resembles it, or the best place has no peak.
+  /// In a picture that was taken from `here`. It is found where the best place resembles it (SearchOptions::
+  /// accept_ratio), at the bottom of its sub-pixel peak if there is one to be found. It counts as missed
+  /// where its whole patch should be in the picture but was not found.
   [[nodiscard]] Finding look_for(const Expectation& expected, const ImageView& image, const CameraPose& here,
                                  Appearance& appearance);
 

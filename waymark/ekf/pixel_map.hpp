@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "waymark/core/observation.hpp"
+#include "waymark/ekf/state.hpp"
+#include "waymark/models/pixel_model.hpp"
+
+namespace waymark::ekf {
+
+/// The landmarks of a camera and what of them stands where in the state: points (x, y, z), and rays (x, y,
+/// rho) relative to the pose of the robot from which they were first seen, their anchor, which stays in the
+/// state for as long as something needs it. Nothing allocates after construction.
+class PixelMap {
+ public:
+  struct Feature {
+    LandmarkId id;
+    int element = 0;  ///< in the state
+    int anchor = -1;  ///< of a ray; below 0: a point
+    int observations = 0;
+    Eigen::Vector3d first_view_m = Eigen::Vector3d::Zero();  ///< from a point to the camera that first saw it
+
+    [[nodiscard]] bool is_point() const { return anchor < 0; }
+  };
+
+  PixelMap(int capacity, int anchors, Consistency consistency, int threads, int error_pairs);
+
+  [[nodiscard]] State& state() { return state_; }
+  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] std::span<const Feature> features() const { return features_; }
+  [[nodiscard]] Feature& feature(int index) { return features_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Feature& feature(int index) const { return features_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] std::optional<int> find(LandmarkId id) const;
+  [[nodiscard]] int capacity() const { return capacity_; }
+  [[nodiscard]] bool is_full() const { return features_.size() == static_cast<std::size_t>(capacity_); }
+
+  /// The robot's present pose as an anchor, held once; nothing where there is no room for another one.
+  [[nodiscard]] std::optional<int> add_anchor();
+  /// An anchor leaves the state when it has been released as often as held.
+  void hold(int anchor) { ++anchors_[static_cast<std::size_t>(anchor)].holders; }
+  void release(int anchor);
+  [[nodiscard]] Pose2 anchor_pose(int anchor) const;
+  [[nodiscard]] int anchor_element(int anchor) const {
+    return anchors_[static_cast<std::size_t>(anchor)].element;
+  }
+
+  /// Appends a ray (x, y, rho) with its covariance; it holds its anchor. The map must not be full.
+  void add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
+               const ErrorTerms& errors = {});
+  /// Turns a ray into the point that it says.
+  void make_point(int index, const Camera& camera);
+  /// The last feature takes the place of a removed one.
+  void remove(int index);
+
+ private:
+  struct Anchor {
+    int element = -1;
+    int holders = 0;
+  };
+  /// Who stands in an element of the state: feature `index`, or an anchor.
+  struct Owner {
+    bool is_anchor = false;
+    int index = 0;
+  };
+
+  void remove_element(int element);
+
+  int capacity_;
+  State state_;
+  std::vector<Feature> features_;
+  std::vector<Anchor> anchors_;
+  std::vector<Owner> owners_;  // by element
+};
+
+}  // namespace waymark::ekf

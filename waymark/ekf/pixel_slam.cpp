@@ -1,0 +1,680 @@
+#include "waymark/ekf/pixel_slam.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "waymark/core/angle.hpp"
+#include "waymark/core/chi2.hpp"
+#include "waymark/core/gaussian.hpp"
+
+namespace waymark {
+namespace {
+
+enum Block : std::size_t { kPredict, kProject, kJacobians, kEstimate, kWeights, kAdd };
+
+// Anchors at most, so pictures whose rays may be under way at once.
+constexpr int kMostAnchors = 32;
+constexpr double kBorder_px = 8.0;
+/// Variance of a place that is known to the whole pixel, px^2.
+constexpr double kRounding = 1.0 / 12.0;
+/// A point may be kept as (x, y, z) (Civera, Davison, Montiel 2008).
+constexpr double kLinear = 0.1;
+// A patch is recognised under this turn of the view and between these ratios of distances.
+const double kLeastCosine = std::cos(45.0 / 180.0 * kPi);
+constexpr double kNearest = 0.4, kFarthest = 2.5;
+// What the innovations after an update may differ from what was linearly expected of them, squared and in
+// units of the noise: a fifth of its standard deviation.
+constexpr double kNegligible = 0.04;
+constexpr int kMostIterations = 5;
+/// What particles claim of a depth is made so many times less sure where the state learns it anew.
+constexpr double kWidening = 5.0;
+
+bool is_finite(const Motion& motion) {
+  const Pose2& T = motion.increment;
+  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
+         motion.covariance.allFinite();
+}
+
+const Pixel* usable_pixel(const Observation& observation) {
+  const auto* z = std::get_if<Pixel>(&observation.value);
+  const bool usable = z != nullptr && std::isfinite(z->u_px) && std::isfinite(z->v_px) &&
+                      (!observation.covariance || observation.covariance->allFinite());
+  return usable ? z : nullptr;
+}
+
+Eigen::Vector2d to_vector(const Pixel& pixel) { return {pixel.u_px, pixel.v_px}; }
+
+Eigen::Vector2d pixel_of(const Observation& observation) {
+  return to_vector(std::get<Pixel>(observation.value));
+}
+
+}  // namespace
+
+void describe(Schema& schema, PixelSlamOptions& options) {
+  schema.integer("pixel.capacity", options.capacity, {1, 2000}, "most landmarks in the map");
+  schema.real("pixel.sigma_px", options.sigma_px, {1e-3, 100.0},
+              "standard deviation of pixels that came without covariance, px");
+  schema.real("pixel.model_sigma_px", options.model_sigma_px, {0.0, 100.0},
+              "what every pixel is off besides: lens, warp, patches that are not flat, px");
+  schema.real("pixel.vibration_deg", options.vibration_deg, {0.0, 10.0},
+              "standard deviation of the camera's pitch and roll, anew in every picture, deg");
+  schema.real("pixel.gate_probability", options.gate_probability, {0.5, 0.9999999},
+              "part of the true sightings that may pass the gates");
+  schema.choice(
+      "pixel.init", options.init, {"delayed", "inverse-depth", "article"},
+      "when a new point takes part: once particles have found out its depth, at once by inverse depth, "
+      "or as delayed but as a point, as in the article");
+  schema.integer("pixel.depth_particles", options.depth.particles, {2, 10000},
+                 "depth particles of a candidate");
+  schema.real("pixel.nearest_m", options.depth.nearest_m, {0.01, 1000.0}, "smallest depth of a new point, m");
+  schema.real("pixel.farthest_m", options.depth.farthest_m, {0.1, 1e6}, "largest depth of a new point, m");
+  schema.choice("pixel.depth_spacing", options.depth.spacing, {"inverse-depth", "depth"},
+                "in what the depth of a new point is uniform; depth: as in the article");
+  schema.integer("pixel.most_candidates", options.most_candidates, {1, 100},
+                 "points whose depth is being found out at once");
+  schema.integer("pixel.most_pictures", options.most_pictures, {1, 100000},
+                 "pictures after which a candidate without depth is given up");
+  schema.real("pixel.depth_ratio", options.depth_ratio, {1e-3, 1.0},
+              "sigma of the depth over the depth below which a candidate is accepted");
+}
+
+PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, const CameraOptions& camera,
+                     int threads)
+    : options_(options),
+      camera_(camera),
+      map_(options.capacity, kMostAnchors, ekf.consistency, threads, options.vibration_deg > 0.0 ? 1 : 0),
+      management_(ekf.evict, options.capacity),
+      agreement_(ekf::State::kMaxSightings),
+      gate_(chi2_quantile(options.gate_probability, 2)),
+      candidates_(static_cast<std::size_t>(options.most_candidates),
+                  Candidate{.depths = ekf::DepthParticles(options.depth)}) {
+  const auto features = static_cast<std::size_t>(options.capacity);
+  expectations_.reserve(features + candidates_.size());
+  removed_.reserve(features + candidates_.size());
+  sightings_.reserve(ekf::State::kMaxSightings);
+  nus_.reserve(ekf::State::kMaxSightings);
+  seen_.reserve(ekf::State::kMaxSightings);
+  used_.reserve(ekf::State::kMaxSightings);
+  refined_.reserve(ekf::State::kMaxSightings);
+  if (options.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
+}
+
+void PixelSlam::predict(const Motion& motion) {
+  BlockTimer timer(blocks_);
+  in_picture_ = false;
+  if (!is_still(motion) && is_finite(motion)) map_.state().predict(motion);
+  timer.finish(kPredict);
+}
+
+void PixelSlam::begin_picture() {
+  in_picture_ = true;
+  removed_.clear();
+  management_.begin_scan();
+  if (options_.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
+  if (anchor_) map_.release(*anchor_);
+  anchor_.reset();
+  for (Candidate& candidate : candidates_) {
+    if (candidate.anchor < 0) continue;
+    const bool fails = candidate.looks >= 10 && 2 * candidate.matches < candidate.looks;
+    if (++candidate.pictures > options_.most_pictures || fails) drop(candidate);
+  }
+  retire();
+}
+
+/// What a vibration of the camera about its x and its z axis does to the pixel of a point.
+ekf::ErrorTerms PixelSlam::vibration(const Eigen::Vector3d& p_camera, double sign) const {
+  ekf::ErrorTerms terms;
+  const auto image = camera_.project(p_camera);
+  if (options_.vibration_deg <= 0.0 || !image) return terms;
+  terms[0].pair = 0;
+  const double scale = sign * to_radians(options_.vibration_deg);
+  terms[0].J.topRows<2>() << scale * image->dpixel_dpoint * Eigen::Vector3d::UnitX().cross(p_camera),
+      scale * image->dpixel_dpoint * Eigen::Vector3d::UnitZ().cross(p_camera);
+  return terms;
+}
+
+Eigen::Matrix2d PixelSlam::noise(const Observation& observation) const {
+  const double model = options_.model_sigma_px * options_.model_sigma_px;
+  const double own = options_.sigma_px * options_.sigma_px;
+  const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
+  return (observation.covariance ? *observation.covariance : (own * identity).eval()) + model * identity;
+}
+
+/// A feature as it should look from a pose, with `values` of what stands in the state; nothing where it
+/// cannot be seen. The innovation is left to the caller.
+template <class Values>
+std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& feature,
+                                                const Pose2& T_world_robot, const Values& values) const {
+  const CameraPose here = camera_.pose(T_world_robot);
+  Sight seen;
+  seen.sighting.landmark = feature.element;
+  if (feature.is_point()) {
+    const auto h = observe_point(camera_, here, values(feature.element));
+    if (!h) return std::nullopt;
+    seen.sighting.H_pose = h->H_pose;
+    seen.sighting.H_landmark = h->H_landmark;
+    seen.predicted = h->predicted;
+    seen.p_camera = h->p_camera;
+  } else {
+    seen.sighting.anchor = map_.anchor_element(feature.anchor);
+    const Eigen::Vector3d anchor = values(seen.sighting.anchor);
+    const auto h =
+        observe_ray(camera_, here, camera_.pose({anchor[0], anchor[1], anchor[2]}), values(feature.element));
+    if (!h) return std::nullopt;
+    seen.sighting.H_pose = h->H_pose;
+    seen.sighting.H_landmark = h->H_ray;
+    seen.sighting.H_anchor = h->H_anchor;
+    seen.predicted = h->predicted;
+    seen.p_camera = h->p_camera;
+  }
+  seen.sighting.errors = vibration(seen.p_camera, 1.0);
+  return seen;
+}
+
+/// As it should look at the present estimate, Jacobians where the consistency mode wants them.
+std::optional<PixelSlam::Sight> PixelSlam::sight(int index) const {
+  const ekf::State& state = map_.state();
+  const ekf::PixelMap::Feature& feature = map_.feature(index);
+  const auto seen =
+      look(feature, state.pose().T_world_robot, [&](int element) { return state.landmark(element); });
+  if (!seen || state.consistency() != ekf::Consistency::kFej) return seen;
+  auto first = look(feature, state.linearization_pose(),
+                    [&](int element) { return state.linearization_landmark(element); });
+  if (first) first->predicted = seen->predicted;
+  return first;
+}
+
+/// Points are known by how they looked, which holds from about where they were first seen.
+bool PixelSlam::is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const {
+  if (!camera_.sees(sight.predicted, kBorder_px)) return false;
+  if (!feature.is_point()) return true;
+  const Eigen::Vector3d view =
+      camera_.pose(pose().T_world_robot).p_world_camera - map_.state().landmark(feature.element);
+  const double ratio = view.norm() / feature.first_view_m.norm();
+  return ratio > kNearest && ratio < kFarthest &&
+         view.normalized().dot(feature.first_view_m.normalized()) > kLeastCosine;
+}
+
+std::span<const Expectation> PixelSlam::expect() {
+  BlockTimer timer(blocks_);
+  begin_picture();
+  expectations_.clear();
+  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i) expect_feature(i);
+  for (const Candidate& candidate : candidates_)
+    if (candidate.anchor >= 0) expect_candidate(candidate);
+  timer.finish(kProject);
+  return expectations_;
+}
+
+void PixelSlam::expect_feature(int index) {
+  auto seen = sight(index);
+  const ekf::PixelMap::Feature& feature = map_.feature(index);
+  if (!seen || !is_in_view(feature, *seen)) return;
+  const double model = options_.model_sigma_px * options_.model_sigma_px;
+  seen->sighting.R = (model + kRounding) * Eigen::Matrix2d::Identity();
+  Expectation expected;
+  expected.id = feature.id;
+  expected.predicted_px = seen->predicted;
+  expected.S = map_.state().innovation_covariance(seen->sighting);
+  if (!(expected.S.determinant() > 0.0)) return;
+  const Eigen::Vector3d values = map_.state().landmark(feature.element);
+  if (feature.is_point()) {
+    expected.p_world_m = values;
+  } else {
+    const double least_rho = 1.0 / options_.depth.farthest_m;
+    expected.p_world_m = point_of_ray(camera_.pose(map_.anchor_pose(feature.anchor)),
+                                      {values[0], values[1], std::max(values[2], least_rho)})
+                             .p_world;
+  }
+  expected.information_nats = 0.5 * std::log(expected.S.determinant() / seen->sighting.R.determinant());
+  expectations_.push_back(expected);
+}
+
+PixelSlam::Baseline PixelSlam::baseline(const Candidate& candidate) const {
+  const ekf::State& state = map_.state();
+  const std::size_t anchor = state.offset(map_.anchor_element(candidate.anchor));
+  const std::array<std::size_t, 6> rows{0, 1, 2, anchor, anchor + 1, anchor + 2};
+  Baseline line{
+      camera_.pose(state.pose().T_world_robot), camera_.pose(map_.anchor_pose(candidate.anchor)), {}};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      line.P(i, j) = state.covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+  return line;
+}
+
+/// Where a candidate of inverse depth rho should appear, and how sure that is: without the noise of the
+/// pixel.
+std::optional<PixelSlam::PredictedPixel> PixelSlam::predict_pixel(const Candidate& candidate,
+                                                                  const Baseline& baseline,
+                                                                  double rho) const {
+  const auto h =
+      observe_ray(camera_, baseline.here, baseline.anchor, {candidate.xy.x(), candidate.xy.y(), rho});
+  if (!h) return std::nullopt;
+  Eigen::Matrix<double, 2, 6> H;
+  H << h->H_pose, h->H_anchor;
+  const Eigen::Matrix2d H_xy = h->H_ray.leftCols<2>();
+  const ekf::ErrorTerms shaken = vibration(h->p_camera, 1.0);
+  const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
+  return PredictedPixel{
+      h->predicted,
+      H * baseline.P * H.transpose() + H_xy * candidate.xy_covariance * H_xy.transpose() + J * J.transpose()};
+}
+
+/// The moments of the pixels that its depths predict, by three of them (Gauss and Hermite).
+void PixelSlam::expect_candidate(const Candidate& candidate) {
+  const Baseline line = baseline(candidate);
+  const auto [mean, sigma] = candidate.depths.inverse_depth();
+  const double step = std::sqrt(3.0) * sigma;
+  const auto middle = predict_pixel(candidate, line, mean);
+  const auto near = predict_pixel(candidate, line, mean + step);
+  const auto far = predict_pixel(candidate, line, std::max(0.0, mean - step));
+  if (!middle || !near || !far) return;
+  Expectation expected;
+  expected.id = candidate.id;
+  expected.candidate = true;
+  expected.predicted_px = (4.0 * middle->pixel + near->pixel + far->pixel) / 6.0;
+  const double model = options_.model_sigma_px * options_.model_sigma_px;
+  expected.S = (model + kRounding) * Eigen::Matrix2d::Identity();
+  for (const auto& [weight, at] : {std::pair(4.0 / 6.0, *middle), {1.0 / 6.0, *near}, {1.0 / 6.0, *far}}) {
+    const Eigen::Vector2d d = at.pixel - expected.predicted_px;
+    expected.S += weight * (at.S + d * d.transpose());
+  }
+  if (!camera_.sees(expected.predicted_px, kBorder_px) || !expected.S.allFinite()) return;
+  expected.p_world_m = point_of_ray(line.anchor, {candidate.xy.x(), candidate.xy.y(), mean}).p_world;
+  expectations_.push_back(expected);
+}
+
+void PixelSlam::missed(std::span<const LandmarkId> landmarks) {
+  for (const LandmarkId id : landmarks) {
+    if (const auto feature = map_.find(id))
+      management_.missed(*feature);
+    else if (Candidate* candidate = find_candidate(id))
+      ++candidate->looks;
+  }
+}
+
+const Correction& PixelSlam::correct(std::span<const Observation> observations) {
+  BlockTimer timer(blocks_);
+  if (!in_picture_) begin_picture();
+  innovations_.assign(observations.size(), {});
+  for (std::size_t i = 0; i < observations.size(); ++i) sort_out(i, observations[i]);
+  timer.finish(kJacobians);
+  update(observations);
+  settle_rays();
+  timer.finish(kEstimate);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kMatched && find_candidate(innovations_[i].landmark) != nullptr)
+      weigh(i, observations);
+  timer.finish(kWeights);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kAdded) begin(i, observations[i]);
+  timer.finish(kAdd);
+  correction_ = {innovations_, removed_};
+  return correction_;
+}
+
+/// Decides what an observation is of: a landmark, a candidate, or something new.
+void PixelSlam::sort_out(std::size_t index, const Observation& observation) {
+  Innovation& innovation = innovations_[index];
+  innovation.outcome = Outcome::kUnusable;
+  if (usable_pixel(observation) == nullptr) return;
+  innovation.outcome = Outcome::kUnidentified;
+  if (!observation.id) return;
+  innovation.landmark = *observation.id;
+  const auto end = innovations_.begin() + static_cast<std::ptrdiff_t>(index);
+  const bool again = std::any_of(innovations_.begin(), end, [&innovation](const Innovation& earlier) {
+    return earlier.landmark == innovation.landmark && earlier.outcome != Outcome::kUnusable;
+  });
+  if (again)
+    innovation.outcome = Outcome::kDuplicate;
+  else if (map_.find(innovation.landmark) || find_candidate(innovation.landmark) != nullptr)
+    innovation.outcome = Outcome::kMatched;
+  else
+    innovation.outcome = Outcome::kAdded;
+}
+
+/// In blocks of at most kMaxSightings: first those that agree, then those that fit what these found.
+void PixelSlam::update(std::span<const Observation> observations) {
+  for (std::size_t next = 0; next < observations.size();) {
+    sightings_.clear();
+    nus_.clear();
+    seen_.clear();
+    for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next)
+      if (innovations_[next].outcome == Outcome::kMatched && map_.find(innovations_[next].landmark))
+        collect(next, observations[next]);
+    if (sightings_.empty()) continue;
+    update_agreeing(observations);
+    rescue(observations);
+    for (const std::size_t i : seen_) book(i);
+  }
+}
+
+/// Linearises one sighting at the present estimate.
+void PixelSlam::collect(std::size_t index, const Observation& observation) {
+  Innovation& innovation = innovations_[index];
+  const int feature = *map_.find(innovation.landmark);
+  if (!settle(index, observation)) {
+    innovation.outcome = Outcome::kUnusable;
+    return;
+  }
+  if (!management_.evicts()) return;
+  const ekf::State& state = map_.state();
+  const ekf::Sighting& sighting = sightings_.back();
+  if (innovation.nis <= innovation.gate)
+    management_.matched(feature, {state.pose().covariance, state.pose_correlation(sighting),
+                                  state.innovation_covariance(sighting), sighting.H_pose});
+}
+
+/// Appends a sighting to those of the block and notes its NIS.
+bool PixelSlam::settle(std::size_t index, const Observation& observation) {
+  Innovation& innovation = innovations_[index];
+  auto seen = sight(*map_.find(innovation.landmark));
+  if (!seen) return false;
+  ekf::Sighting& sighting = seen->sighting;
+  sighting.R = noise(observation);
+  sighting.nu = pixel_of(observation) - seen->predicted - map_.state().expected(sighting.errors);
+  const auto nis = mahalanobis_squared<2>(sighting.nu, map_.state().innovation_covariance(sighting));
+  if (!nis) return false;
+  innovation.dof = 2;
+  innovation.nis = *nis;
+  innovation.gate = gate_;
+  sightings_.push_back(sighting);
+  nus_.push_back(sighting.nu);
+  seen_.push_back(index);
+  return true;
+}
+
+/// Those of the block that do not agree are left as gated.
+void PixelSlam::update_agreeing(std::span<const Observation> observations) {
+  const auto S = map_.state().joint_innovation_covariance(sightings_);
+  const auto agrees = agreement_.largest(S, nus_, gate_);
+  used_.clear();
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
+    if (agrees[k] != 0) {
+      sightings_[used_.size()] = sightings_[k];
+      used_.push_back(seen_[k]);
+    } else {
+      innovations_[seen_[k]].outcome = Outcome::kGated;
+    }
+  }
+  sightings_.resize(used_.size());
+  if (apply(observations)) return;
+  for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
+}
+
+/// Updates the state with the sightings of the observations used_, linearised anew where that matters: a ray
+/// of unsure depth that is seen from elsewhere (Bell and Cathey 1993). False if S is not positive definite.
+bool PixelSlam::apply(std::span<const Observation> observations) {
+  if (used_.empty()) return true;
+  ekf::State& state = map_.state();
+  if (!state.propose(sightings_)) return false;
+  if (state.consistency() != ekf::Consistency::kFej && options_.init != ekf::Initialization::kArticle)
+    for (int i = 0; i < kMostIterations && relinearize(observations); ++i)
+      if (!state.propose(sightings_)) return false;
+  state.accept();
+  return true;
+}
+
+/// Linearises the block where it would lead to. False, and nothing changed, if that is as good as linear, or
+/// leads to where nothing can be seen.
+bool PixelSlam::relinearize(std::span<const Observation> observations) {
+  const ekf::State& state = map_.state();
+  refined_.clear();
+  double change = 0.0;
+  for (std::size_t k = 0; k < used_.size(); ++k) {
+    const ekf::Sighting& before = sightings_[k];
+    const int feature = *map_.find(innovations_[used_[k]].landmark);
+    auto there = look(map_.feature(feature), state.proposed_pose(),
+                      [&state](int element) { return state.proposed_landmark(element); });
+    if (!there) return false;
+    ekf::Sighting& sighting = there->sighting;
+    sighting.R = before.R;
+    sighting.nu =
+        pixel_of(observations[used_[k]]) - there->predicted - state.proposed_expected(sighting.errors);
+    const Eigen::Vector2d bent = sighting.nu - (before.nu - state.explained(before));
+    change = std::max(change, bent.dot(before.R.inverse() * bent));
+    refined_.push_back(sighting);
+  }
+  if (change < kNegligible) return false;
+  for (std::size_t k = 0; k < used_.size(); ++k) sightings_[k] = state.moved_back(refined_[k]);
+  return true;
+}
+
+/// High-innovation inliers: what did not agree, but fits where the others have led.
+void PixelSlam::rescue(std::span<const Observation> observations) {
+  const std::size_t count = seen_.size();
+  sightings_.clear();
+  nus_.clear();
+  used_.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t index = seen_[k];
+    Innovation& innovation = innovations_[index];
+    if (innovation.outcome != Outcome::kGated) continue;
+    const double nis_before = innovation.nis;
+    if (!settle(index, observations[index])) continue;
+    seen_.pop_back();
+    if (innovation.nis <= gate_) {
+      innovation.outcome = Outcome::kMatched;
+      used_.push_back(index);
+    } else {
+      sightings_.pop_back();
+    }
+    innovation.nis = nis_before;
+  }
+  if (apply(observations)) return;
+  for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
+}
+
+void PixelSlam::book(std::size_t index) {
+  const int feature = *map_.find(innovations_[index].landmark);
+  if (innovations_[index].outcome == Outcome::kMatched)
+    ++map_.feature(feature).observations;
+  else
+    management_.missed(feature);
+}
+
+/// Rays that were seen and have become as good as linear go on as points; those that lead behind infinity go.
+/// Only where they were just seen: from elsewhere any ray may look linear.
+void PixelSlam::settle_rays() {
+  const Eigen::Vector3d here = camera_.pose(pose().T_world_robot).p_world_camera;
+  for (const Innovation& innovation : innovations_) {
+    const auto index = map_.find(innovation.landmark);
+    if (innovation.outcome != Outcome::kMatched || !index || map_.feature(*index).is_point()) continue;
+    const ekf::PixelMap::Feature& feature = map_.feature(*index);
+    const Eigen::Vector3d ray = map_.state().landmark(feature.element);
+    const double sigma = std::sqrt(map_.state().landmark_covariance(feature.element)(2, 2));
+    if (ray[2] + 2.0 * sigma < 0.0)
+      remove(*index);
+    else if (ray[2] > 0.0 &&
+             linearity_index(camera_.pose(map_.anchor_pose(feature.anchor)), ray, sigma, here) < kLinear)
+      map_.make_point(*index, camera_);
+  }
+}
+
+/// w <- w N(z; h(rho), S(rho)) for each depth of a candidate (Vincke et al. 2012, algorithm 1).
+void PixelSlam::weigh(std::size_t index, std::span<const Observation> observations) {
+  const Observation& observation = observations[index];
+  Candidate& candidate = *find_candidate(innovations_[index].landmark);
+  const Baseline line = baseline(candidate);
+  const Eigen::Matrix2d R = noise(observation);
+  const Eigen::Vector2d z = pixel_of(observation);
+  double least_nis = HUGE_VAL;
+  ++candidate.looks;
+  candidate.depths.score([&](double rho) {
+    const auto at = predict_pixel(candidate, line, rho);
+    if (!at) return -HUGE_VAL;
+    const Eigen::Matrix2d S = at->S + R;
+    const auto nis = mahalanobis_squared<2>(z - at->pixel, S);
+    if (!nis) return -HUGE_VAL;
+    least_nis = std::min(least_nis, *nis);
+    return -0.5 * (*nis + std::log(S.determinant()));
+  });
+  Innovation& innovation = innovations_[index];
+  innovation.outcome = least_nis <= gate_ ? Outcome::kMatched : Outcome::kGated;
+  if (innovation.outcome == Outcome::kGated) return;
+  candidate.depths.take();
+  ++candidate.matches;
+  const auto [mean, sigma] = candidate.depths.depth();
+  if (sigma < options_.depth_ratio * mean) accept(candidate, index, observations);
+}
+
+/// The depth of a candidate is known well enough to linearise there: it becomes a landmark.
+///
+/// Its particles took the errors of the robot's way since the anchor for new ones in every picture, while
+/// they are nearly the same in all of them: they are too sure, and know nothing of what the depth has in
+/// common with the pose. The state therefore learns the depth from the first pixel and this one, both of
+/// whose poses it holds; from the particles it takes where to linearise.
+void PixelSlam::accept(Candidate& candidate, std::size_t index, std::span<const Observation> observations) {
+  const int anchor = std::exchange(candidate.anchor, -1);
+  if (make_room()) {
+    const auto [rho, sigma] = candidate.depths.inverse_depth();
+    const bool as_point = options_.init == ekf::Initialization::kArticle;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    covariance.topLeftCorner<2, 2>() = candidate.xy_covariance;
+    covariance(2, 2) = std::pow(as_point ? sigma : kWidening * sigma, 2);
+    map_.add_ray(candidate.id, anchor, {candidate.xy.x(), candidate.xy.y(), rho}, covariance);
+    management_.added();
+    const int feature = static_cast<int>(map_.features().size()) - 1;
+    map_.feature(feature).observations = candidate.matches + 1;
+    if (as_point)
+      map_.make_point(feature, camera_);
+    else
+      confirm(index, observations);
+  } else {
+    removed_.push_back(candidate.id);
+  }
+  map_.release(anchor);
+}
+
+/// Updates the state with one sighting alone.
+void PixelSlam::confirm(std::size_t index, std::span<const Observation> observations) {
+  sightings_.clear();
+  nus_.clear();
+  seen_.clear();
+  used_.assign(1, index);
+  if (settle(index, observations[index])) static_cast<void>(apply(observations));
+}
+
+/// A pixel that nobody knows: a candidate, or at once a ray.
+void PixelSlam::begin(std::size_t index, const Observation& observation) {
+  Innovation& innovation = innovations_[index];
+  innovation.outcome = Outcome::kMapFull;
+  const auto ray = camera_.ray(pixel_of(observation));
+  const bool at_once = options_.init == ekf::Initialization::kInverseDepth;
+  const auto slot = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.anchor < 0; });
+  if (!ray || (at_once ? !make_room() : slot == candidates_.end())) return;
+  if (!anchor_) anchor_ = map_.add_anchor();
+  if (!anchor_) return;
+  innovation.outcome = Outcome::kAdded;
+  const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * noise(observation) * ray->dxy_dpixel.transpose();
+  ekf::ErrorTerms shaken = vibration(ray->xy.homogeneous(), -1.0);
+  shaken[0].J.topRows<2>() = (ray->dxy_dpixel * shaken[0].J.topRows<2>()).eval();
+  if (at_once) {
+    const double nearest = 1.0 / options_.depth.nearest_m, farthest = 1.0 / options_.depth.farthest_m;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    covariance.topLeftCorner<2, 2>() = xy_covariance;
+    covariance(2, 2) = std::pow(0.25 * (nearest - farthest), 2);
+    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), 0.5 * (nearest + farthest)},
+                 covariance, shaken);
+    management_.added();
+    map_.feature(static_cast<int>(map_.features().size()) - 1).observations = 1;
+    return;
+  }
+  const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
+  slot->id = innovation.landmark;
+  slot->anchor = *anchor_;
+  map_.hold(*anchor_);
+  slot->xy = ray->xy;
+  slot->xy_covariance = xy_covariance + J * J.transpose();
+  slot->depths.restart();
+  slot->pictures = slot->looks = slot->matches = 0;
+}
+
+void PixelSlam::drop(Candidate& candidate) {
+  removed_.push_back(candidate.id);
+  map_.release(std::exchange(candidate.anchor, -1));
+}
+
+void PixelSlam::retire() {
+  for (int i = static_cast<int>(map_.features().size()) - 1; i >= 0; --i)
+    if (management_.keeps_failing(i)) remove(i);
+}
+
+/// Whether there is room for one more landmark, if need be by removing one.
+bool PixelSlam::make_room() {
+  if (!map_.is_full()) return true;
+  const auto least_useful = management_.evicts() ? management_.least_useful() : std::nullopt;
+  if (least_useful) remove(*least_useful);
+  return least_useful.has_value();
+}
+
+void PixelSlam::remove(int feature) {
+  removed_.push_back(map_.feature(feature).id);
+  map_.remove(feature);
+  management_.removed(feature);
+}
+
+PixelSlam::Candidate* PixelSlam::find_candidate(LandmarkId id) {
+  const auto found = std::ranges::find_if(
+      candidates_, [id](const Candidate& candidate) { return candidate.anchor >= 0 && candidate.id == id; });
+  return found == candidates_.end() ? nullptr : &*found;
+}
+
+int PixelSlam::candidates() const {
+  return static_cast<int>(
+      std::ranges::count_if(candidates_, [](const Candidate& c) { return c.anchor >= 0; }));
+}
+
+MapState PixelSlam::save() const {
+  const ekf::State& state = map_.state();
+  MapState saved;
+  saved.landmark_dimension = 3;
+  saved.T_world_robot = state.pose().T_world_robot;
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i)
+    if (map_.feature(i).is_point() ||
+        state.landmark(map_.feature(i).element)[2] > 1.0 / options_.depth.farthest_m)
+      kept.push_back(i);
+  const auto count = static_cast<int>(kept.size());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3 + 3 * count, 3 + 3 * state.landmarks());
+  J.topLeftCorner<3, 3>().setIdentity();
+  saved.landmarks.resize(3 * count);
+  for (int k = 0; k < count; ++k) {
+    const ekf::PixelMap::Feature& feature = map_.feature(kept[static_cast<std::size_t>(k)]);
+    saved.ids.push_back(feature.id);
+    saved.observations.push_back(feature.observations);
+    const Eigen::Vector3d values = state.landmark(feature.element);
+    auto J_element = J.block<3, 3>(3 + 3 * k, 3 + 3 * feature.element);
+    J_element.setIdentity();
+    saved.landmarks.segment<3>(3 * k) = values;
+    if (feature.is_point()) continue;
+    const RayPoint point = point_of_ray(camera_.pose(map_.anchor_pose(feature.anchor)), values);
+    J_element = point.J_ray;
+    J.block<3, 3>(3 + 3 * k, 3 + 3 * map_.anchor_element(feature.anchor)) = point.J_anchor;
+    saved.landmarks.segment<3>(3 * k) = point.p_world;
+  }
+  saved.covariance = J * state.covariance() * J.transpose();
+  saved.covariance = (0.5 * (saved.covariance + saved.covariance.transpose())).eval();
+  return saved;
+}
+
+Snapshot PixelSlam::snapshot() const {
+  const MapState saved = save();
+  Snapshot snapshot;
+  snapshot.pose = pose();
+  for (std::size_t k = 0; k < saved.ids.size(); ++k) {
+    const auto at = static_cast<int>(3 * k);
+    snapshot.landmarks.push_back({saved.ids[k],
+                                  saved.landmarks.segment<3>(at),
+                                  saved.covariance.block<3, 3>(3 + at, 3 + at),
+                                  saved.observations[k],
+                                  {}});
+  }
+  return snapshot;
+}
+
+}  // namespace waymark
