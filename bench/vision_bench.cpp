@@ -17,6 +17,7 @@
 #include "waymark/vision/corners.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/subpixel.hpp"
+#include "waymark/vision/tracker.hpp"
 
 #ifdef WAYMARK_WITH_OPENCV
 #include <opencv2/features2d.hpp>
@@ -167,6 +168,83 @@ void warp(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(vision::warp_patch(reference, A, 16));
 }
 
+// What a tracker is asked in a picture: 20 landmarks and 4 candidates, and corners in two cells.
+class TrackedFrame {
+ public:
+  TrackedFrame(const vision::TrackerOptions& options, const vision::SearchOptions& search, int threads)
+      : tracker_(options, search, camera_, threads) {
+    for (int tries = 0; expectations_.size() < kFeatures && tries < 100; ++tries) learn_corners();
+    for (std::size_t k = 0; k < expectations_.size() / 6; ++k) make_candidate(expectations_[k]);
+  }
+
+  void track() {
+    tracker_.begin(image_, moved_, expectations_);
+    benchmark::DoNotOptimize(tracker_.match());
+    benchmark::DoNotOptimize(tracker_.finish());
+  }
+  [[nodiscard]] double count(vision::Look::Result result) const {
+    return static_cast<double>(std::ranges::count(tracker_.looks(), result, &vision::Look::result));
+  }
+  [[nodiscard]] const FunctionBlocks& blocks() const { return tracker_.blocks(); }
+
+ private:
+  static constexpr std::size_t kFeatures = 24;
+  static constexpr double kDepth_m = 3.0;
+
+  void learn_corners() {
+    tracker_.begin(image_, {}, expectations_);
+    static_cast<void>(tracker_.match());
+    std::vector<Innovation> taken;
+    for (const Observation& seen : tracker_.finish().found) {
+      const auto& place = std::get<Pixel>(seen.value);
+      if (expectations_.size() == kFeatures) break;
+      taken.push_back({*seen.id, Outcome::kAdded});
+      expectations_.push_back(expectation(*seen.id, {place.u_px, place.v_px}));
+    }
+    tracker_.learn({taken, {}});
+  }
+  [[nodiscard]] Expectation expectation(LandmarkId id, const Eigen::Vector2d& pixel) const {
+    const CameraPose pose = camera_.pose({});
+    const Eigen::Vector2d xy = camera_.ray(pixel)->xy;
+    return {.id = id,
+            .predicted_px = pixel + Eigen::Vector2d(1.3, -0.9),
+            .S = Eigen::Matrix2d{{25.0, 5.0}, {5.0, 25.0}},
+            .p_world_m = pose.p_world_camera +
+                         kDepth_m * pose.R_camera_world.transpose() * Eigen::Vector3d(xy.x(), xy.y(), 1.0),
+            .information_nats = 4.0};
+  }
+  static void make_candidate(Expectation& e) {
+    e.candidate = true;
+    e.S = Eigen::Matrix2d{{400.0, 0.0}, {0.0, 4.0}};
+  }
+
+  GreyImage image_ = frames().back().image;
+  Camera camera_;
+  Pose2 moved_{0.01, 0.0, 0.0};
+  vision::Tracker tracker_;
+  std::vector<Expectation> expectations_;
+};
+
+void track_frame(benchmark::State& state, const vision::TrackerOptions& options,
+                 const vision::SearchOptions& search) {
+  TrackedFrame frame(options, search, 1);
+  for (auto _ : state) frame.track();
+  state.counters["found"] = frame.count(vision::Look::Result::kFound);
+  state.counters["new"] = frame.count(vision::Look::Result::kNew);
+  for (const FunctionBlocks::Row& row : frame.blocks().rows())
+    state.counters[std::string(row.name) + " us"] =
+        1e6 * to_seconds(row.total) / static_cast<double>(row.calls);
+}
+
+vision::TrackerOptions usual_tracker() { return {.new_corners = {.wanted = 36, .most_new = 2}}; }
+
+vision::TrackerOptions article_tracker(kernels::Instructions instructions) {
+  vision::TrackerOptions options = usual_tracker();
+  options.finder = {.warp = false, .subpixel = false};
+  options.instructions = instructions;
+  return options;
+}
+
 #ifdef WAYMARK_WITH_OPENCV
 void corners_opencv(benchmark::State& state, const GreyImage& image) {
   cv::setNumThreads(1);
@@ -221,6 +299,12 @@ const bool kRegistered = [] {
   benchmark::RegisterBenchmark("find_landmark/article", find_landmark, vision::MatchScore::kArticle);
   benchmark::RegisterBenchmark("find_subpixel_peak", find_subpixel_peak);
   benchmark::RegisterBenchmark("warp", warp);
+  benchmark::RegisterBenchmark("tracker_frame", track_frame, usual_tracker(), vision::SearchOptions{});
+  const vision::SearchOptions article{.match = vision::MatchScore::kArticle};
+  benchmark::RegisterBenchmark("tracker_frame/article", track_frame, article_tracker(Instructions::kSimd),
+                               article);
+  benchmark::RegisterBenchmark("tracker_frame/article_scalar", track_frame,
+                               article_tracker(Instructions::kScalar), article);
   return true;
 }();
 

@@ -20,6 +20,9 @@ PixelRect intersection(const PixelRect& a, const PixelRect& b) {
 
 PixelRect widened(const PixelRect& r) { return {r.u - 1, r.v - 1, r.width_px + 2, r.height_px + 2}; }
 
+/// Vectors of this many pixels are scored at once; fewer go pixel by pixel.
+constexpr int kVector = 64;
+
 bool is_empty(const PixelRect& r) { return r.width_px <= 0 || r.height_px <= 0; }
 
 }  // namespace
@@ -50,7 +53,7 @@ const std::vector<Corner>& CornerDetector::detect(const ImageView& image, const 
 void CornerDetector::reserve(int width_px, int height_px) {
   const auto width = static_cast<std::size_t>(width_px), height = static_cast<std::size_t>(height_px);
   for (ScoreRow& row : rows_)
-    if (row.scores.size() < width + 2) row.scores.resize(width + 2);
+    if (row.scores.size() < width + 2 + kVector) row.scores.resize(width + 2 + kVector);
   if (places_.size() < (width + 1) / 2) places_.resize((width + 1) / 2);
   corners_.reserve(((width + 1) / 2) * ((height + 1) / 2));
 }
@@ -58,13 +61,15 @@ void CornerDetector::reserve(int width_px, int height_px) {
 void CornerDetector::score_row(const ImageView& image, const PixelRect& cell, int v) {
   ScoreRow& row = row_of(v);
   // Pixels without a whole circle are no corners.
-  const PixelRect scored =
+  PixelRect scored =
       intersection(intersection(widened(cell), interior(image)), {cell.u - 1, v, cell.width_px + 2, 1});
   row.any = false;
   if (is_empty(scored)) {
     std::fill_n(row.scores.begin(), cell.width_px + 2, std::uint8_t{0});
     return;
   }
+  const int to_the_right = interior(image).u + interior(image).width_px - scored.u;
+  scored.width_px = std::max(scored.width_px, std::min(kVector, to_the_right));
   row.scores[0] = row.scores[static_cast<std::size_t>(cell.width_px) + 1] = 0;
   row.any = fast_scores_(image.pixel(scored.u, v), image.stride, static_cast<std::size_t>(scored.width_px),
                          static_cast<std::uint8_t>(options_.threshold), options_.arc,

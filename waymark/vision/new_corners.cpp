@@ -118,9 +118,15 @@ void NewCorners::add_best(const ImageView& image, const PixelRect& part,
   for (const Corner& corner : detector_.detect(image, part))
     if (strongest_.size() < kRanked || corner.score > strongest_.back().score)
       if (is_far(corner, features)) rank(corner);
-  const auto texture = [&](const Corner& c) { return shi_tomasi_score(image, c.u, c.v, patch_px_); };
-  const auto best = std::ranges::max_element(strongest_, {}, texture);
-  if (best != strongest_.end()) found_.push_back(*best);
+  double most = 0.0;
+  const Corner* best = nullptr;
+  for (const Corner& corner : strongest_) {
+    const double texture = shi_tomasi_score(image, corner.u, corner.v, patch_px_);
+    if (texture <= most) continue;
+    most = texture;
+    best = &corner;
+  }
+  if (best != nullptr) found_.push_back(*best);
 }
 
 }  // namespace waymark::vision
