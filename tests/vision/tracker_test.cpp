@@ -299,5 +299,48 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
   }
 }
 
+TEST(TrackerOptions, OfTheArticleAreSetByKeys) {
+  TrackerOptions options;
+  Schema schema;
+  describe(schema, options);
+  for (const char* assignment :
+       {"tracker.kernels=scalar", "tracker.warp=false", "tracker.subpixel=false", "tracker.patch_px=11",
+        "tracker.budget=clock", "tracker.frame_budget_ms=5", "corners.arc=9"})
+    EXPECT_TRUE(schema.set_assignment(assignment, "here").ok()) << assignment;
+  EXPECT_EQ(options.instructions, kernels::Instructions::kScalar);
+  EXPECT_FALSE(options.finder.warp);
+  EXPECT_FALSE(options.finder.subpixel);
+  EXPECT_EQ(options.finder.patch_px, 11);
+  EXPECT_EQ(options.budget.kind, BudgetKind::kClock);
+  EXPECT_EQ(options.budget.per_frame_ms, 5.0);
+  EXPECT_EQ(options.corners.arc, 9);
+  EXPECT_FALSE(schema.set_assignment("tracker.patch_px=17", "here").ok());
+  TrackerOptions again;
+  Schema other;
+  describe(other, again);
+  EXPECT_TRUE(other.load_text(schema.to_yaml(), "yaml").ok());
+}
+
+TEST(Tracker, FollowsPatchesOfEverySize) {
+  for (const int patch_px : {8, 9, 11, 13, 16}) {
+    Started s(13, {.finder = {.patch_px = patch_px}});
+    EXPECT_GT(s.see(4).size(), 8U) << patch_px;
+  }
+}
+
+TEST(Tracker, WatchesTheClock) {
+  Started s(14, {.budget = {.kind = BudgetKind::kClock}});
+  const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
+  const auto found_in = [&](Duration others) {
+    s.tracker.leave_time(others);
+    s.tracker.begin(s.image, Wall::pose(0), expectations);
+    const std::size_t found = s.tracker.match().found.size();
+    static_cast<void>(s.tracker.finish());
+    return found;
+  };
+  EXPECT_GT(found_in(Duration{0}), expectations.size() / 2);  // 25 ms are plenty
+  EXPECT_EQ(found_in(std::chrono::milliseconds(30)), 0U);
+}
+
 }  // namespace
 }  // namespace waymark::vision

@@ -77,7 +77,9 @@ void describe(Schema& schema, PixelSlamOptions& options) {
   schema.integer("pixel.most_candidates", options.most_candidates, {1, 100},
                  "points whose depth is being found out at once");
   schema.integer("pixel.most_pictures", options.most_pictures, {1, 100000},
-                 "pictures after which a candidate without depth is given up");
+                 "sightings after which a candidate is accepted though its depth is not known, and half the "
+                 "pictures after "
+                 "which it is given up");
   schema.real("pixel.depth_ratio", options.depth_ratio, {1e-3, 1.0},
               "sigma of the depth over the depth below which a candidate is accepted");
 }
@@ -120,7 +122,7 @@ void PixelSlam::begin_picture() {
   for (Candidate& candidate : candidates_) {
     if (candidate.anchor < 0) continue;
     const bool fails = candidate.looks >= 10 && 2 * candidate.matches < candidate.looks;
-    if (++candidate.pictures > options_.most_pictures || fails) drop(candidate);
+    if (++candidate.pictures > 2 * options_.most_pictures || fails) drop(candidate);
   }
   retire();
 }
@@ -519,7 +521,9 @@ void PixelSlam::weigh(std::size_t index, std::span<const Observation> observatio
   candidate.depths.take();
   ++candidate.matches;
   const auto [mean, sigma] = candidate.depths.depth();
-  if (sigma < options_.depth_ratio * mean) accept(candidate, index, observations);
+  const bool patient = options_.init == ekf::Initialization::kArticle;
+  if (sigma < options_.depth_ratio * mean || (!patient && candidate.matches >= options_.most_pictures))
+    accept(candidate, index, observations);
 }
 
 /// The depth of a candidate is known well enough to linearise there: it becomes a landmark.
@@ -535,7 +539,7 @@ void PixelSlam::accept(Candidate& candidate, std::size_t index, std::span<const 
     const bool as_point = options_.init == ekf::Initialization::kArticle;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     covariance.topLeftCorner<2, 2>() = candidate.xy_covariance;
-    covariance(2, 2) = std::pow(as_point ? sigma : kWidening * sigma, 2);
+    covariance(2, 2) = std::pow(as_point ? sigma : std::min(kWidening * sigma, unknown_depth().sigma), 2);
     map_.add_ray(candidate.id, anchor, {candidate.xy.x(), candidate.xy.y(), rho}, covariance);
     management_.added();
     const int feature = static_cast<int>(map_.features().size()) - 1;
@@ -574,12 +578,11 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
   ekf::ErrorTerms shaken = vibration(ray->xy.homogeneous(), -1.0);
   shaken[0].J.topRows<2>() = (ray->dxy_dpixel * shaken[0].J.topRows<2>()).eval();
   if (at_once) {
-    const double nearest = 1.0 / options_.depth.nearest_m, farthest = 1.0 / options_.depth.farthest_m;
+    const auto [rho, sigma] = unknown_depth();
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     covariance.topLeftCorner<2, 2>() = xy_covariance;
-    covariance(2, 2) = std::pow(0.25 * (nearest - farthest), 2);
-    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), 0.5 * (nearest + farthest)},
-                 covariance, shaken);
+    covariance(2, 2) = sigma * sigma;
+    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, covariance, shaken);
     management_.added();
     map_.feature(static_cast<int>(map_.features().size()) - 1).observations = 1;
     return;
@@ -592,6 +595,12 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
   slot->xy_covariance = xy_covariance + J * J.transpose();
   slot->depths.restart();
   slot->pictures = slot->looks = slot->matches = 0;
+}
+
+/// Inverse depth of a point that was seen once: two standard deviations span all that it may be.
+ekf::DepthParticles::Spread PixelSlam::unknown_depth() const {
+  const double nearest = 1.0 / options_.depth.nearest_m, farthest = 1.0 / options_.depth.farthest_m;
+  return {0.5 * (nearest + farthest), 0.25 * (nearest - farthest)};
 }
 
 void PixelSlam::drop(Candidate& candidate) {

@@ -37,7 +37,7 @@ struct PixelSlamOptions {
   ekf::Initialization init = ekf::Initialization::kDelayed;
   ekf::DepthPrior depth;
   int most_candidates = 8;
-  int most_pictures = 60;    ///< that a candidate may take
+  int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
   double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
 };
 
@@ -126,6 +126,7 @@ class PixelSlam final : public Filter {
   void accept(Candidate& candidate, std::size_t index, std::span<const Observation> observations);
   void confirm(std::size_t index, std::span<const Observation> observations);
   void begin(std::size_t index, const Observation& observation);
+  [[nodiscard]] ekf::DepthParticles::Spread unknown_depth() const;
   void drop(Candidate& candidate);
   void retire();
   [[nodiscard]] bool make_room();
