@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/camera_bench.hpp"
 #include "bench/ekf_bench.hpp"
 #include "bench/fastslam_bench.hpp"
 #include "bench/machine.hpp"
@@ -17,7 +18,8 @@ struct Suite {
   const char* name;
   std::vector<BenchResult> (*run)(const Machine&, BenchScope, const BenchProgress&);
 };
-constexpr std::array kSuites{Suite{"ekf", bench_ekf}, Suite{"fastslam", bench_fastslam}};
+constexpr std::array kSuites{Suite{"ekf", bench_ekf}, Suite{"fastslam", bench_fastslam},
+                             Suite{"camera", bench_camera}};
 
 struct Request {
   std::vector<std::string> suites;

@@ -83,6 +83,35 @@ does eval whole/trajectory.tum --truth whole/trajectory.tum
 does run sim:square --seed 3 -o memory
 cmp -s whole/trajectory.tum memory/trajectory.tum || fail 'a log from memory gives another path than from disk'
 
+# Pictures: from disk as from memory, and what can be wrong with them.
+short=(--set sim.side_m=2 --set sim.speed_mps=1 --set sim.corner_radius_m=0.3)
+does sim room -o room "${short[@]}"
+does check room
+grep -q 'run: waymark run room -o out --observe pixel' out.txt || fail 'check does not say how pictures are run'
+does run room -o seen
+does run sim:room "${short[@]}" -o seen-memory
+cmp -s seen/trajectory.tum seen-memory/trajectory.tum || fail 'pictures from memory give another path than from disk'
+[ "$(wc -l <seen/map.csv)" -gt 10 ] || fail 'pictures give no map'
+grep -q 'landmark_dimension: 3' seen/map.waymark || fail 'a map from pictures has no heights'
+grep -q '"FB4 match"' seen/metrics.json || fail 'metrics.json lacks the blocks of the tracker'
+[ "$(wc -c <seen/report.html)" -lt 3000000 ] || fail 'a report with pictures is too large'
+refuses 2 'filter=ekf' run room -o o --filter fastslam
+refuses 2 'observe' run log -o o --observe pixel
+spoil() { rm -rf spoilt && cp -r room spoilt; }
+spoil && sed -i 's/image_width: 320/image_width: 640/' spoilt/camera.yaml
+refuses 2 'camera.yaml: image_width and image_height are 640 and 240' run spoilt -o o
+spoil && rm spoilt/images/*9.png && head -c 100 room/images/000020.png >spoilt/images/000020.png
+does run spoilt -o o
+grep -q 'missing in images' out.txt || fail 'missing pictures are not named'
+grep -q 'images skipped: 1, the first because' out.txt || fail 'a damaged picture is not named'
+spoil && rm spoilt/camera.yaml
+does check spoilt
+grep -q 'camera.yaml is missing' out.txt || fail 'check does not say that the camera is unknown'
+spoil && rm spoilt/images/*.png
+refuses 2 'no picture' run spoilt -o o
+does run room -o o --set tracker.frame_budget_ms=0.3
+grep -q 'for want of time' out.txt || fail 'a budget that is too small is not named'
+
 # An observation mode that the log cannot give.
 cp -r log bearings && cut -d, -f1,2,4 log/observations.csv >bearings/observations.csv
 refuses 2 'observe' run bearings -o o --filter fastslam --observe range
@@ -161,6 +190,19 @@ node -e '
     expect(Object.keys(r.params).join(" ") === keys[r.name], "params of " + JSON.stringify(r));
     expect(r.value > 0 && ["ms", "us", "x"].includes(r.unit), "value or unit of " + JSON.stringify(r));
   }' <out.txt || fail 'bench --json is not what it should be'
+
+does bench camera --quick --json
+node -e '
+  const { results } = JSON.parse(require("fs").readFileSync(0));
+  const expect = (good, what) => { if (!good) { console.error(what); process.exitCode = 1; } };
+  for (const name of ["camera.fast", "camera.zmssd", "camera.frame", "camera.block", "camera.block_published"])
+    expect(results.some((r) => r.name === name && r.value > 0), "no " + name);
+  for (const mode of ["default", "article"])
+    for (const quantile of ["p50", "p99.9"])
+      expect(results.some((r) => r.params.mode === mode && r.params.quantile === quantile), mode + " " + quantile);
+  const blocks = results.filter((r) => r.name === "camera.block" && r.params.mode === "default").map((r) => r.params.block.slice(0, 3));
+  expect(blocks.join(" ") === "FB1 FB2 FB3 FB4 FB5 FB6 FB7 FB8 FB9", "blocks: " + blocks);
+  ' <out.txt || fail 'bench camera --json is not what it should be'
 
 # A sweep: mistakes, a table, and going on after it was killed.
 refuses 2 'close keys: fastslam.particles' sweep sim:square -o s --axis particles=1,2

@@ -61,6 +61,16 @@ TEST(ReportJson, ThinsLongSeriesAndKeepsTheirPeaks) {
   EXPECT_EQ(*std::max_element(us.begin(), us.end()), 12'345.0);
 }
 
+TEST(ReportJson, SaysWhatBecameOfEachLook) {
+  const json film = json::parse(report_json(sample_report(10))).at("runs").at(0).at("film");
+  ASSERT_EQ(film.size(), 2U);
+  std::vector<std::string> results;
+  for (const json& look : film.at(1).at("looks")) results.push_back(look.at("result"));
+  EXPECT_EQ(results, (std::vector<std::string>{"not tried", "found", "rejected", "new", "not tried"}));
+  EXPECT_EQ(film.at(1).at("looks").at(1).at("u"), 10.25);
+  EXPECT_EQ(film.at(1).at("png").get<std::string>().substr(0, 11), "iVBORw0KGgo");  // how PNG files begin
+}
+
 TEST(ReportJson, CountsAllInnovationsInTheHistogram) {
   const json innovations = json::parse(report_json(sample_report(60'000))).at("runs").at(0).at("innovations");
   const json& histogram = innovations.at("histogram");

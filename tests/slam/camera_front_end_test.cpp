@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/allocation_counter.hpp"
 #include "waymark/slam/make_filter.hpp"
 
 #include "pictures.hpp"
@@ -112,6 +113,27 @@ TEST(CameraFrontEnd, PicturesAreIgnoredWhereNobodyLooks) {
   pipeline.push(taken(0.5, noise_picture(1)));
   pipeline.finish();
   EXPECT_EQ(pipeline.counts().events, 0);
+}
+
+TEST(CameraFrontEnd, TakesNoMemoryOnceTheMapIsFull) {
+  auto opened = open_input("sim:room", {{}, {"pixel.capacity=20", "sim.speed_mps=0.2"}});
+  ASSERT_TRUE(opened.ok());
+  const auto filter = std::move(*make_filter(opened->config));
+  const auto front_end = make_front_end(opened->config, *filter);
+  constexpr int kPictures = 240, kCounted = 120;
+  std::int64_t allocations = 0, matched = 0;
+  for (int i = 0; i < kPictures;) {
+    const auto event = opened->source->next();
+    ASSERT_TRUE(event.ok() && event->has_value());
+    const auto* image = std::get_if<Image>(&(**event).content);
+    if (image == nullptr) continue;
+    const test::AllocationCount count;
+    filter->predict({Pose2{0.2 / 30.0, 0.0, 0.0}, Eigen::Vector3d(1e-8, 1e-8, 1e-8).asDiagonal()});
+    matched += front_end->see(*image->pixels).count(Outcome::kMatched);
+    if (++i > kPictures - kCounted) allocations += count.allocations();
+  }
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(matched, kPictures);
 }
 
 TEST(CameraFrontEnd, ShowsTheBlocksOfFilterAndTrackerInOneTable) {

@@ -10,7 +10,11 @@ Stamp at(int picture) { return stamp_from_seconds(picture / 30.0); }
 FilmStrip film_of(int pictures, std::size_t most) {
   FilmStrip film(most);
   const std::vector<vision::Look> looks(2);
-  for (int i = 0; i < pictures; ++i) film.add(at(i), GreyImage(4, 3, static_cast<std::uint8_t>(i)), looks);
+  const std::vector<Innovation> innovations{
+      {.landmark = {LandmarkId::Family::kCorner, 1}},
+      {.landmark = {LandmarkId::Family::kCorner, 2}, .outcome = Outcome::kGated}};
+  for (int i = 0; i < pictures; ++i)
+    film.add(at(i), GreyImage(4, 3, static_cast<std::uint8_t>(i)), looks, innovations);
   return film;
 }
 
@@ -20,6 +24,8 @@ TEST(FilmStrip, KeepsAllOfAShortRun) {
   EXPECT_EQ(film.frames()[3].stamp, at(3));
   EXPECT_EQ(film.frames()[3].picture, GreyImage(4, 3, 3));
   EXPECT_EQ(film.frames()[3].looks.size(), 2U);
+  ASSERT_EQ(film.frames()[3].refused.size(), 1U);
+  EXPECT_EQ(film.frames()[3].refused[0].number, 2);
 }
 
 TEST(FilmStrip, SpreadsWhatItKeepsEvenlyOverALongRun) {

@@ -1,6 +1,7 @@
 #include "waymark/slam/pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -112,6 +113,20 @@ TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
   EXPECT_NEAR((*batch[0].covariance)(0, 0), 0.2 * 0.2, 1e-12);
   EXPECT_NEAR((*batch[0].covariance)(1, 1), to_radians(2.0) * to_radians(2.0), 1e-12);
   EXPECT_EQ(*batch[1].covariance, Eigen::Matrix2d::Identity());
+}
+
+TEST(Pipeline, LeavesPixelsAsTheyCome) {
+  Fixture f({}, {}, Observe::kPixel);
+  Observation own = sighting(2, Pixel{3.0, 4.0});
+  own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
+  f.push(
+      {seen(0.0, {sighting(1, Pixel{1.0, 2.0}), own, sighting(3, Pixel{std::nan(""), 1.0}), sighting(4)})});
+  const auto& batch = f.filter.batches.at(0);
+  ASSERT_EQ(batch.size(), 2U);
+  EXPECT_FALSE(batch[0].covariance.has_value());
+  EXPECT_EQ(*batch[1].covariance, *own.covariance);
+  EXPECT_EQ(f.pipeline.counts().unusable, 1);
+  EXPECT_EQ(f.pipeline.counts().wrong_kind, 1);
 }
 
 TEST(Pipeline, UsesThePartThatIsAskedFor) {

@@ -1,5 +1,7 @@
 #include "waymark/slam/recording.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "waymark/slam/make_filter.hpp"
@@ -89,6 +91,55 @@ TEST(MakeFilter, SaysThatParticlesTakeNoPixels) {
   const auto run = record_study({"observe=pixel", "filter=fastslam"});
   ASSERT_FALSE(run.ok());
   EXPECT_NE(run.error().message.find("filter=ekf"), std::string::npos) << run.error().message;
+}
+
+Result<Recording> record_room(std::vector<std::string> settings, const TimeSpan& span = {}) {
+  auto opened = open_input("sim:room", {{}, std::move(settings)});
+  if (!opened) return opened.error();
+  return record(*opened->source, opened->config, span);
+}
+
+TEST(Recording, PicturesGiveTheSameBitsForOneAndTwoThreads) {
+  const auto one = record_room({}, {.to_s = 4.0});
+  const auto two = record_room({"threads=2"}, {.to_s = 4.0});
+  ASSERT_TRUE(one.ok() && two.ok());
+  ASSERT_EQ(one->trajectory.size(), two->trajectory.size());
+  for (std::size_t i = 0; i < one->trajectory.size(); ++i)
+    ASSERT_EQ(one->trajectory[i].pose, two->trajectory[i].pose);
+  EXPECT_EQ(one->film.frames().size(), two->film.frames().size());
+}
+
+/// Sightings used at stamps from..to, s.
+std::int64_t matches_between(const Recording& run, double from_s, double to_s) {
+  return std::ranges::count_if(run.innovations, [&](const auto& each) {
+    const double t_s = to_seconds(each.stamp - Stamp{});
+    return each.innovation.outcome == Outcome::kMatched && t_s >= from_s && t_s <= to_s;
+  });
+}
+
+const TrajectoryPoint& point_at(const Recording& run, double t_s) {
+  return *std::ranges::find_if(
+      run.trajectory, [t_s](const TrajectoryPoint& point) { return point.stamp >= stamp_from_seconds(t_s); });
+}
+
+TEST(Recording, UnderACoverTheRobotGoesOnByDeadReckoningAndLooksAgainAfterwards) {
+  const auto run = record_room({"sim.lens_covered_from_s=4", "sim.lens_covered_for_s=10"}, {.to_s = 16.0});
+  ASSERT_TRUE(run.ok());
+  EXPECT_GT(matches_between(*run, 3.0, 4.0), 0);
+  EXPECT_EQ(matches_between(*run, 4.1, 13.9), 0);
+  EXPECT_GT(matches_between(*run, 14.1, 16.0), 0);
+  const auto variance = [&run](double t_s) { return point_at(*run, t_s).covariance->trace(); };
+  for (double t_s = 4.5; t_s < 13.0; t_s += 1.0) EXPECT_GT(variance(t_s + 1.0), variance(t_s)) << t_s;
+  const double moved_m = (point_at(*run, 13.0).pose.position() - point_at(*run, 5.0).pose.position()).norm();
+  EXPECT_GT(moved_m, 2.0);
+}
+
+TEST(Recording, LostPicturesAreBridged) {
+  const auto run = record_room({"sim.image_drop_probability=0.5"}, {.to_s = 6.0});
+  ASSERT_TRUE(run.ok());
+  EXPECT_FALSE(run->error.has_value());
+  EXPECT_LT(run->counts.pictures, 130);
+  EXPECT_GT(matches_between(*run, 5.0, 6.0), 0);
 }
 
 TEST(Recording, PixelsThatALogDoesNotHaveEndTheRun) {

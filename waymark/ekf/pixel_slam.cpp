@@ -81,7 +81,8 @@ void describe(Schema& schema, PixelSlamOptions& options) {
   schema.integer("pixel.least_pictures", options.least_pictures, {1, 100000},
                  "sightings before a candidate is accepted: what moves by itself shows within these");
   schema.integer("pixel.most_pictures", options.most_pictures, {1, 100000},
-                 "sightings after which a candidate is accepted though its depth is not known, and half the pictures after "
+                 "sightings after which a candidate is accepted though its depth is not known, and half the "
+                 "pictures after "
                  "which it is given up");
   schema.real("pixel.depth_ratio", options.depth_ratio, {1e-3, 1.0},
               "sigma of the depth over the depth below which a candidate is accepted");
@@ -586,8 +587,7 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     covariance.topLeftCorner<2, 2>() = xy_covariance;
     covariance(2, 2) = sigma * sigma;
-    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), rho},
-                 covariance, shaken);
+    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, covariance, shaken);
     management_.added();
     map_.feature(static_cast<int>(map_.features().size()) - 1).observations = 1;
     return;

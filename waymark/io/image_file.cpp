@@ -153,7 +153,7 @@ Result<GreyImage> read_image(const std::filesystem::path& path, std::optional<Im
   return decode_image(*bytes, path.string(), expected);
 }
 
-Result<void> write_png(const std::filesystem::path& path, const ImageView& image) {
+Result<std::string> encode_png(const ImageView& image) {
   PngImage png;
   png.width = static_cast<png_uint_32>(image.width_px);
   png.height = static_cast<png_uint_32>(image.height_px);
@@ -162,9 +162,15 @@ Result<void> write_png(const std::filesystem::path& path, const ImageView& image
   png_alloc_size_t size = bytes.size();
   const auto stride = static_cast<png_int_32>(image.stride);
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data, stride, nullptr) == 0)
-    return Error{fmt::format("cannot write {}: {}", path.string(), png.message), Error::Kind::kFailed};
+    return Error{fmt::format("cannot make a PNG image: {}", png.message), Error::Kind::kFailed};
   bytes.resize(size);
-  return write_file(path, bytes);
+  return bytes;
+}
+
+Result<void> write_png(const std::filesystem::path& path, const ImageView& image) {
+  const auto bytes = encode_png(image);
+  if (!bytes) return Error{fmt::format("{}: {}", path.string(), bytes.error().message), bytes.error().kind};
+  return write_file(path, *bytes);
 }
 
 }  // namespace waymark

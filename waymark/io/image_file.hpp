@@ -28,6 +28,8 @@ inline constexpr int kMaxImageSide_px = 16384;
 [[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, const std::string& name,
                                              std::optional<ImageSize> expected = {});
 
+/// The bytes of a grey PNG file.
+[[nodiscard]] Result<std::string> encode_png(const ImageView& image);
 /// As a grey PNG file.
 [[nodiscard]] Result<void> write_png(const std::filesystem::path& path, const ImageView& image);
 

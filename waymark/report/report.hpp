@@ -8,6 +8,7 @@
 
 #include "waymark/core/pose2.hpp"
 #include "waymark/core/result.hpp"
+#include "waymark/slam/film_strip.hpp"
 
 namespace waymark {
 
@@ -80,6 +81,13 @@ struct ReportedBlock {
   std::int64_t calls = 0;
   double mean_us = 0.0;
   double per_frame_us = 0.0;
+  std::optional<double> article_per_frame_us;  ///< published for the same block
+};
+
+/// Pictures of the run with what was looked for in them.
+struct FilmSeries {
+  std::vector<double> t_s;
+  std::vector<FilmFrame> frames;
 };
 
 /// One run of a filter. Its path and landmarks are anchored at the true start pose where there is a truth.
@@ -95,6 +103,7 @@ struct RunData {
   InnovationSeries innovations;
   StepSeries steps;
   std::vector<ReportedBlock> blocks;
+  FilmSeries film;
   std::string metrics_json;  ///< the text of metrics.json
   std::vector<std::string> notes;
 };

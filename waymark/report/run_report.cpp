@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "waymark/eval/align.hpp"
+#include "waymark/report/article_times.hpp"
 #include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
@@ -132,6 +133,7 @@ StepSeries steps_of(const Recording& recording, const Clock& clock) {
     series.t_s.push_back(clock(step.stamp));
     series.us.push_back(micros(step.cpu));
   }
+  if (recording.frame_budget) series.budget_us = micros(*recording.frame_budget);
   return series;
 }
 
@@ -139,11 +141,21 @@ std::vector<ReportedBlock> blocks_of(const Metrics& metrics) {
   std::vector<ReportedBlock> blocks;
   for (const auto& row : metrics.blocks) {
     const double total_us = micros(row.total);
-    blocks.push_back({std::string(row.name), row.calls,
+    blocks.push_back({std::string(row.name),
+                      row.calls,
                       row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0,
-                      metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0});
+                      metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0,
+                      {}});
+    if (const auto article = article_time(row.name))
+      blocks.back().article_per_frame_us = article->per_frame_us;
   }
   return blocks;
+}
+
+FilmSeries film_of(const Recording& recording, const Clock& clock) {
+  FilmSeries film{{}, recording.film.frames()};
+  for (const FilmFrame& frame : film.frames) film.t_s.push_back(clock(frame.stamp));
+  return film;
 }
 
 /// What moves the anchored estimate to its best fit.
@@ -185,6 +197,7 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.innovations = innovations_of(result.recording, clock);
   run.steps = steps_of(result.recording, clock);
   run.blocks = blocks_of(result.metrics);
+  run.film = film_of(result.recording, clock);
   run.metrics_json = to_json(result.metrics);
   run.notes = result.recording.notes;
   if (result.evaluation)

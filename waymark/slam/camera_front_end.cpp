@@ -9,7 +9,10 @@ CameraFrontEnd::CameraFrontEnd(PixelSlam& filter, const vision::TrackerOptions& 
     : filter_(filter),
       camera_(camera),
       on_the_clock_(options.budget.kind == vision::BudgetKind::kClock),
-      tracker_(options, search, camera, threads) {}
+      tracker_(options, search, camera, threads) {
+  constexpr std::size_t kRoom = 256;  // for innovations of one picture
+  innovations_.reserve(kRoom);
+}
 
 bool CameraFrontEnd::fits(const ImageView& image) const {
   return image.width_px == camera_.width_px() && image.height_px == camera_.height_px();
@@ -19,7 +22,8 @@ const Correction& CameraFrontEnd::see(const ImageView& image) {
   innovations_.clear();
   begin(image);
   correct(tracker_.match());
-  correction_ = {innovations_, correct(tracker_.finish()).removed};
+  const Correction& last = correct(tracker_.finish());
+  correction_ = {innovations_, last.removed};
   leave_time();
   return correction_;
 }

@@ -16,6 +16,7 @@ struct FilmFrame {
   Stamp stamp;
   GreyImage picture;
   std::vector<vision::Look> looks;
+  std::vector<LandmarkId> refused;  ///< found, and not believed by the filter
 };
 
 /// Pictures spread evenly over a run of unknown length: whenever there are too many of them every second one
@@ -25,7 +26,8 @@ class FilmStrip {
   explicit FilmStrip(std::size_t most = 24) : most_(most) {}
 
   /// Called with every picture; copies those that it keeps.
-  void add(Stamp stamp, const GreyImage& picture, std::span<const vision::Look> looks);
+  void add(Stamp stamp, const GreyImage& picture, std::span<const vision::Look> looks,
+           std::span<const Innovation> innovations);
 
   [[nodiscard]] const std::vector<FilmFrame>& frames() const { return frames_; }
 

@@ -11,7 +11,8 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(
           config.ekf, config.gate, config.sensor.T_robot_sensor(), config.threads, config.sensor.errors));
     case Observe::kPixel:
-      return std::unique_ptr<Filter>(std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
+      return std::unique_ptr<Filter>(
+          std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
     case Observe::kRange:
     case Observe::kBearing:
       return Error{

@@ -1,6 +1,7 @@
 #include "waymark/slam/pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "waymark/core/function_blocks.hpp"
 
@@ -32,6 +33,20 @@ Eigen::Matrix2d part_covariance(const Observation& observation, const Measuremen
     R(0, 0) = R(1, 1);
   if (!std::holds_alternative<RangeBearing>(used)) R(0, 1) = R(1, 0) = R(1, 1) = 0.0;
   return R;
+}
+
+/// The limits of the sensor are not those of the camera, whose filter knows them.
+bool can_be_used(const LandmarkSensor& sensor, const Measurement& value) {
+  if (const auto* pixel = std::get_if<Pixel>(&value))
+    return std::isfinite(pixel->u_px) && std::isfinite(pixel->v_px);
+  return is_usable(sensor, value);
+}
+
+/// Pixels keep what they came with.
+std::optional<Eigen::Matrix2d> used_covariance(const LandmarkSensor& sensor, const Observation& observation,
+                                               const Measurement& used) {
+  if (std::holds_alternative<Pixel>(used)) return observation.covariance;
+  return observation.covariance ? part_covariance(observation, used) : noise_covariance(sensor, used);
 }
 
 }  // namespace
@@ -143,12 +158,10 @@ void Pipeline::collect(const Observations& observations) {
     const auto used = part(value, observe_);
     if (!used) {
       ++counts_.wrong_kind;
-    } else if (!is_usable(sensor_, value)) {
+    } else if (!can_be_used(sensor_, value)) {
       ++counts_.unusable;
     } else {
-      const Eigen::Matrix2d R =
-          observation.covariance ? part_covariance(observation, *used) : noise_covariance(sensor_, *used);
-      batch_.push_back({observation.id, *used, R});
+      batch_.push_back({observation.id, *used, used_covariance(sensor_, observation, *used)});
     }
   }
 }

@@ -43,7 +43,8 @@ void keep(Recording& recording, const Step& step, const CameraFrontEnd* front_en
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
-  if (step.picture != nullptr) recording.film.add(step.stamp, *step.picture, front_end->looks());
+  if (step.picture != nullptr)
+    recording.film.add(step.stamp, *step.picture, front_end->looks(), step.correction->innovations);
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)
     recording.innovations.push_back({step.stamp, innovation});
