@@ -110,6 +110,17 @@ TEST(ArcJacobian, AgreesWithCentralDifferences) {
     }
 }
 
+TEST(TurnedMore, IsTheArcOfTheSameLengthThatTurnsMore) {
+  for (const ArcModel model : kArcModels)
+    for (const ArcStep& step : example_steps())
+      for (const double turn_rad : {-0.4, 1e-5, 0.3}) {
+        const Pose2 more = turned_more(arc_increment(step, model), turn_rad, model);
+        const Pose2 expected = arc_increment({step.distance_m, step.turn_rad + turn_rad}, model);
+        EXPECT_TRUE(matrix_near(difference(more, expected), Eigen::Vector3d::Zero(), 1e-12))
+            << step.distance_m << " " << step.turn_rad;
+      }
+}
+
 TEST(WheelStep, AFasterRightWheelTurnsLeft) {
   const ArcStep turn = wheel_step({-1.0, 1.0}, {0.05, 0.05, 0.5});
   EXPECT_DOUBLE_EQ(turn.distance_m, 0.0);

@@ -95,6 +95,41 @@ TEST(Odometer, FollowsDeadReckonedPosesFromWhereverTheyStart) {
                                 test::to_vector(step), 1e-12));
 }
 
+/// The heading that is left when odometry that turns by 0.01 rad/s too much has reported these motions, each
+/// for ten seconds; between two readings something is seen.
+double heading_with_bias_rad(const std::vector<Velocity>& motions) {
+  OdometryOptions options;
+  options.standing = {0.05, 0.02};
+  Odometer odometer(options, 1.0);
+  (void)odometer.advance(at(0.0), nullptr);
+  odometer.add({at(0.0), OdometryPose{}});
+  Pose2 T_odom_robot, pose;
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    for (int step = 1; step <= 100; ++step) {
+      const double stamp_s = 10.0 * static_cast<double>(i) + 0.1 * step;
+      const Pose2 moved = velocity_motion({motions[i].v_mps, motions[i].w_radps + 0.01}, 0.1, {}).increment;
+      T_odom_robot = T_odom_robot * moved;
+      const Event next{at(stamp_s), OdometryPose{T_odom_robot}};
+      pose = pose * odometer.advance(at(stamp_s - 0.04), &next).increment;
+      pose = pose * odometer.advance(at(stamp_s), &next).increment;
+      odometer.add(next);
+    }
+  return pose.theta_rad;
+}
+
+TEST(Odometer, LearnsItsTurnBiasWhileTheRobotStandsAndTakesItOut) {
+  EXPECT_NEAR(heading_with_bias_rad({{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.1}, {-0.5, 0.0}}), 1.0, 1e-9);
+}
+
+TEST(Odometer, KnowsNoTurnBiasBeforeTheRobotHasStood) {
+  EXPECT_NEAR(heading_with_bias_rad({{1.0, 0.0}}), 0.1, 1e-9);
+  EXPECT_NEAR(heading_with_bias_rad({{1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}}), 0.1, 1e-9);
+}
+
+TEST(Odometer, ATurnOnTheSpotIsNoBias) {
+  EXPECT_NEAR(heading_with_bias_rad({{0.0, 0.05}, {1.0, 0.0}}), 0.7, 1e-9);
+}
+
 TEST(Odometer, RefusesASecondKind) {
   Odometer odometer({}, 1.0);
   (void)odometer.advance(at(0.0), nullptr);

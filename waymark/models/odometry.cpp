@@ -57,6 +57,11 @@ void describe(Schema& schema, OdometryOptions& o) {
               "turning error variance per metre driven");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
+  schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
+              "a robot slower than this that also turns little stands, m/s: what its odometry turns then is "
+              "its bias, and taken out of what follows; 0: never");
+  schema.real("motion.standing_below_radps", o.standing.below_radps, {0.0, 10.0},
+              "the most that counts as turning little there, rad/s");
   schema.real("motion.outer_point_m", o.outer_point_m, {0.0, 10.0},
               "how far out, on the outside of a turn, the point is whose speed is reported, m");
   schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
@@ -89,6 +94,13 @@ Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
   const auto [k, k1] = chord_ratio(step.turn_rad, model);
   return Eigen::Matrix<double, 3, 2>{
       {k * c, ds * (k1 * c - 0.5 * k * s)}, {k * s, ds * (k1 * s + 0.5 * k * c)}, {0.0, 1.0}};
+}
+
+Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model) {
+  const double after_rad = increment.theta_rad + turn_rad;
+  const double longer = chord_ratio(after_rad, model).value / chord_ratio(increment.theta_rad, model).value;
+  const Eigen::Vector2d p = longer * (rotation_matrix(0.5 * turn_rad) * increment.position());
+  return {p.x(), p.y(), wrap_angle(after_rad)};
 }
 
 ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels) {

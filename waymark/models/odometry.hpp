@@ -25,6 +25,13 @@ struct OdometryNoise {
   double turn_var_rad2_per_m = 1e-4;    ///< turning while driving straight
 };
 
+/// When the robot stands, so that what its odometry turns is an error of its own: it reports less speed and
+/// less turning than this. Zeros: never.
+struct StandingOptions {
+  double below_mps = 0.0;
+  double below_radps = 0.0;
+};
+
 /// Whether an increment is laid along the chord of its exact arc, or is as long as the arc (the 2012
 /// article's k = 1).
 enum class ArcModel { kExact, kArticle };
@@ -32,6 +39,7 @@ enum class ArcModel { kExact, kArticle };
 struct OdometryOptions {
   WheelGeometry wheels;
   OdometryNoise noise;
+  StandingOptions standing;
   ArcModel arc = ArcModel::kExact;
   double speed_scale = 1.0;    ///< true distance per measured distance
   double turn_scale = 1.0;     ///< true turn per measured turn
@@ -56,6 +64,9 @@ struct ArcStep {
 [[nodiscard]] Pose2 arc_increment(const ArcStep& step, ArcModel model);
 /// d(x, y, theta)/d(ds, dth) of the above, 3x2.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model);
+
+/// The same arc if it turned so much more.
+[[nodiscard]] Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model);
 
 /// Encoder increments to distance and turn (Vincke et al. 2012, equation 5) and its Jacobian to (left, right)
 /// angles.

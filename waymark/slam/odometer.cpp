@@ -45,15 +45,22 @@ std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp,
 }
 
 Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
-    : options_(options), max_hold_(duration_from_seconds(max_hold_s)) {}
+    : options_(options), turn_bias_(options.standing), max_hold_(duration_from_seconds(max_hold_s)) {}
 
 Motion Odometer::advance(Stamp stamp, const Event* next) {
   Motion motion;
   if (velocity_) motion = advance_velocity(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
+  if (!is_still(motion)) take_bias_out(motion.increment, to_seconds(stamp - *now_));
   now_ = stamp;
   return motion;
+}
+
+void Odometer::take_bias_out(Pose2& increment, double dt_s) {
+  turn_bias_.look_at(increment, dt_s);
+  const double rate_radps = turn_bias_.rate_radps();
+  if (rate_radps != 0.0) increment = turned_more(increment, -rate_radps * dt_s, options_.arc);
 }
 
 Motion Odometer::advance_velocity(Stamp stamp) {

@@ -6,6 +6,7 @@
 
 #include "waymark/core/event.hpp"
 #include "waymark/models/odometry.hpp"
+#include "waymark/slam/turn_bias.hpp"
 
 namespace waymark {
 
@@ -28,7 +29,8 @@ class SampledTrack {
 };
 
 /// Turns whatever kind of odometry a log has into the motion between any two stamps. The first kind that
-/// appears counts; a log with two kinds would otherwise move twice.
+/// appears counts; a log with two kinds would otherwise move twice. Learns, whenever the robot stands, how
+/// its odometry turns by itself, and takes that out.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
@@ -44,11 +46,13 @@ class Odometer {
   [[nodiscard]] int gaps() const { return gaps_; }
 
  private:
+  void take_bias_out(Pose2& increment, double dt_s);
   [[nodiscard]] Motion advance_velocity(Stamp stamp);
   [[nodiscard]] Motion advance_wheels(Stamp stamp, const Event* next);
   [[nodiscard]] Motion advance_pose(Stamp stamp, const Event* next);
 
   OdometryOptions options_;
+  TurnBias turn_bias_;
   Duration max_hold_;
   std::optional<std::size_t> kind_;  // alternative of EventContent
   std::optional<Stamp> now_;
