@@ -1,5 +1,7 @@
 #include "waymark/ekf/agreement.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/LU>
@@ -20,40 +22,45 @@ Eigen::Matrix2d block(const Agreement::JointCovariance& S, std::size_t i, std::s
 
 }  // namespace
 
-Agreement::Score Agreement::try_with(std::size_t i, const JointCovariance& S,
-                                     std::span<const Eigen::Vector2d> nu, double gate) {
+Eigen::Matrix2d Agreement::left_of(const JointCovariance& S, std::size_t j, std::size_t i) {
+  const Eigen::Matrix2d S_ji = block(S, j, i);
+  return block(S, j, j) - S_ji * block(S, i, i).inverse() * S_ji.transpose();
+}
+
+/// And flags in tried_ those that agree. Infinite where the sighting is outside of its gate.
+double Agreement::cost_with(std::size_t i, const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+                            double own_gate, double gate) {
   const Eigen::Matrix2d S_ii = block(S, i, i);
   const auto own = mahalanobis_squared<2>(nu[i], S_ii);
-  if (!own || *own > gate) return {};
+  if (!own || *own > own_gate) return HUGE_VAL;
   const Eigen::Matrix2d S_ii_inverse = S_ii.inverse();
-  Score score{1, *own};
+  double cost = *own;
   for (std::size_t j = 0; j < nu.size(); ++j) {
     tried_[j] = j == i ? 1 : 0;
     if (j == i) continue;
     const Eigen::Matrix2d S_ji = block(S, j, i);
     const Eigen::Matrix2d A = S_ji * S_ii_inverse;
     const auto d2 = mahalanobis_squared<2>(nu[j] - A * nu[i], block(S, j, j) - A * S_ji.transpose());
-    if (!d2 || *d2 > gate) continue;
-    tried_[j] = 1;
-    ++score.count;
-    score.residual2 += *d2;
+    tried_[j] = d2 && *d2 <= gate ? 1 : 0;
+    cost += d2 ? std::min(*d2, gate) : gate;
   }
-  return score;
+  return cost;
 }
 
-std::span<const char> Agreement::largest(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
-                                         double gate) {
-  largest_.assign(nu.size(), 0);
+std::span<const char> Agreement::best(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+                                      double own_gate, double gate) {
+  best_.assign(nu.size(), 0);
   tried_.resize(nu.size());
-  Score best;
+  double least = HUGE_VAL;
   for (std::size_t i = 0; i < nu.size(); ++i) {
-    const Score score = try_with(i, S, nu, gate);
-    if (!score.beats(best)) continue;
-    best = score;
-    std::swap(largest_, tried_);
+    const double cost = cost_with(i, S, nu, own_gate, gate);
+    if (!(cost < least)) continue;
+    least = cost;
+    hypothesis_ = i;
+    std::swap(best_, tried_);
     tried_.resize(nu.size());
   }
-  return largest_;
+  return best_;
 }
 
 }  // namespace waymark::ekf

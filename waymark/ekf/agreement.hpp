@@ -12,7 +12,10 @@ namespace waymark::ekf {
 /// be. Here every sighting gets its turn, not a random few, and what remains uncertain of the others counts:
 /// with S the innovation covariance of all, a sighting j agrees with i where
 ///
-///     r = nu_j - S_ji S_ii^-1 nu_i,   r^T (S_jj - S_ji S_ii^-1 S_ij)^-1 r <= gate
+///     r = nu_j - S_ji S_ii^-1 nu_i,   d_j^2 = r^T (S_jj - S_ji S_ii^-1 S_ij)^-1 r <= gate
+///
+/// The best i is that of the smallest nu_i^T S_ii^-1 nu_i + sum over j of min(d_j^2, gate) (Torr and
+/// Zisserman 2000): a wrong place that others share must still be paid for.
 class Agreement {
  public:
   using JointCovariance =
@@ -20,25 +23,25 @@ class Agreement {
                  Eigen::OuterStride<>>;
 
   /// Room for so many sightings.
-  explicit Agreement(std::size_t capacity) : largest_(capacity), tried_(capacity) {}
+  explicit Agreement(std::size_t capacity) : best_(capacity), tried_(capacity) {}
 
-  /// The largest set that agrees with one of its own, itself within the gate; of equally large ones that of
-  /// the smallest residuals. One flag per sighting, all zero where none is within its gate. `S` holds the
-  /// lower triangle for two rows per sighting. Valid until the next call. O(sightings^2).
-  [[nodiscard]] std::span<const char> largest(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
-                                              double gate);
+  /// Index of the sighting with which the others were compared, after best() found one.
+  [[nodiscard]] std::size_t hypothesis() const { return hypothesis_; }
+  /// What is left of S_jj where sighting i is known: how far it may still lead the state.
+  [[nodiscard]] static Eigen::Matrix2d left_of(const JointCovariance& S, std::size_t j, std::size_t i);
+
+  /// Those that agree with the best of their own, itself within `own_gate`. One flag per sighting, all zero
+  /// where none is within its gate. `S` holds the lower triangle for two rows per sighting. Valid until the
+  /// next call. O(sightings^2).
+  [[nodiscard]] std::span<const char> best(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+                                           double own_gate, double gate);
 
  private:
-  struct Score {
-    int count = 0;
-    double residual2 = 0.0;
-    [[nodiscard]] bool beats(const Score& other) const {
-      return count > other.count || (count == other.count && residual2 < other.residual2);
-    }
-  };
-  Score try_with(std::size_t i, const JointCovariance& S, std::span<const Eigen::Vector2d> nu, double gate);
+  double cost_with(std::size_t i, const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+                   double own_gate, double gate);
 
-  std::vector<char> largest_;
+  std::size_t hypothesis_ = 0;
+  std::vector<char> best_;
   std::vector<char> tried_;
 };
 

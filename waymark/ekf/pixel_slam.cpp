@@ -23,10 +23,18 @@ constexpr double kBorder_px = 8.0;
 constexpr double kRounding = 1.0 / 12.0;
 /// A point may be kept as (x, y, z) (Civera, Davison, Montiel 2008).
 constexpr double kLinear = 0.1;
-/// A ray that has to be settled before that may be kept as a point if sigma of its depth over the depth is less.
+/// Part of the true sightings that agree with each other.
+constexpr double kAgreement = 0.99;
+/// A ray that has to be settled before that may be kept as a point if sigma of its depth over the depth is
+/// less.
 constexpr double kFairlySure = 0.1;
 // A patch is recognised under this turn of the view and between these ratios of distances.
 const double kLeastCosine = std::cos(45.0 / 180.0 * kPi);
+/// Standard deviation of an innovation from which on one sighting alone convinces nobody, px.
+constexpr double kWide_px = 15.0;
+/// From where on a landmark comes back that leads the state far, px, and how many must.
+constexpr double kFar_px = 6.0;
+constexpr int kWitnesses = 3;
 constexpr double kNearest = 0.4, kFarthest = 2.5;
 // What the innovations after an update may differ from what was linearly expected of them, squared and in
 // units of the noise: a fifth of its standard deviation.
@@ -96,6 +104,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
       management_(ekf.evict, options.capacity),
       agreement_(ekf::State::kMaxSightings),
       gate_(chi2_quantile(options.gate_probability, 2)),
+      agreement_gate_(chi2_quantile(kAgreement, 2)),
       candidates_(static_cast<std::size_t>(options.most_candidates),
                   Candidate{.depths = ekf::DepthParticles(options.depth)}) {
   const auto features = static_cast<std::size_t>(options.capacity);
@@ -209,24 +218,38 @@ std::span<const Expectation> PixelSlam::expect() {
   BlockTimer timer(blocks_);
   begin_picture();
   expectations_.clear();
-  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i) expect_feature(i);
+  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i)
+    if (const auto expected = expect_feature(i)) expectations_.push_back(*expected);
   for (const Candidate& candidate : candidates_)
     if (candidate.anchor >= 0) expect_candidate(candidate);
   timer.finish(kProject);
   return expectations_;
 }
 
-void PixelSlam::expect_feature(int index) {
+std::span<const Expectation> PixelSlam::expect_again() {
+  BlockTimer timer(blocks_);
+  std::size_t kept = 0;
+  for (const Expectation& before : expectations_) {
+    const auto feature = before.candidate ? std::nullopt : map_.find(before.id);
+    if (!feature || management_.is_in_scan(*feature)) continue;
+    if (const auto expected = expect_feature(*feature)) expectations_[kept++] = *expected;
+  }
+  expectations_.resize(kept);
+  timer.finish(kProject);
+  return expectations_;
+}
+
+std::optional<Expectation> PixelSlam::expect_feature(int index) const {
   auto seen = sight(index);
   const ekf::PixelMap::Feature& feature = map_.feature(index);
-  if (!seen || !is_in_view(feature, *seen)) return;
+  if (!seen || !is_in_view(feature, *seen)) return std::nullopt;
   const double model = options_.model_sigma_px * options_.model_sigma_px;
   seen->sighting.R = (model + kRounding) * Eigen::Matrix2d::Identity();
   Expectation expected;
   expected.id = feature.id;
   expected.predicted_px = seen->predicted;
   expected.S = map_.state().innovation_covariance(seen->sighting);
-  if (!(expected.S.determinant() > 0.0)) return;
+  if (!(expected.S.determinant() > 0.0)) return std::nullopt;
   const Eigen::Vector3d values = map_.state().landmark(feature.element);
   if (feature.is_point()) {
     expected.p_world_m = values;
@@ -237,7 +260,7 @@ void PixelSlam::expect_feature(int index) {
                              .p_world;
   }
   expected.information_nats = 0.5 * std::log(expected.S.determinant() / seen->sighting.R.determinant());
-  expectations_.push_back(expected);
+  return expected;
 }
 
 PixelSlam::Baseline PixelSlam::baseline(const Candidate& candidate) const {
@@ -394,22 +417,43 @@ bool PixelSlam::settle(std::size_t index, const Observation& observation) {
   return true;
 }
 
-/// Those of the block that do not agree are left as gated.
+/// Those of the block that do not agree are left as gated. A landmark that may still be anywhere when another
+/// one is known comes back after long: it leads the state far, and needs others that come back with it.
 void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   const auto S = map_.state().joint_innovation_covariance(sightings_);
-  const auto agrees = agreement_.largest(S, nus_, gate_);
+  const auto agrees = agreement_.best(S, nus_, gate_, agreement_gate_);
+  const bool is_convincing = this->is_convincing(agrees);
+  const auto returns = [&](std::size_t k) {
+    return agrees[k] != 0 && k != agreement_.hypothesis() &&
+           ekf::Agreement::left_of(S, k, agreement_.hypothesis()).trace() > kFar_px * kFar_px;
+  };
+  int returning = 0;
+  for (std::size_t k = 0; k < seen_.size(); ++k) returning += returns(k);
   used_.clear();
   for (std::size_t k = 0; k < seen_.size(); ++k) {
-    if (agrees[k] != 0) {
+    Innovation& innovation = innovations_[seen_[k]];
+    if (!is_convincing || agrees[k] == 0) {
+      innovation.outcome = Outcome::kGated;
+    } else if (returns(k) && returning < kWitnesses) {
+      innovation.outcome = Outcome::kUnusable;
+    } else {
       sightings_[used_.size()] = sightings_[k];
       used_.push_back(seen_[k]);
-    } else {
-      innovations_[seen_[k]].outcome = Outcome::kGated;
     }
   }
   sightings_.resize(used_.size());
   if (apply(observations)) return;
   for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
+}
+
+/// What looks right in the wrong place agrees with hardly anything: most of the block must agree, and several
+/// where the search was so wide that something that looks right is easily found.
+bool PixelSlam::is_convincing(std::span<const char> agrees) const {
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(agrees, [](char a) { return a != 0; }));
+  const bool is_wide = std::ranges::any_of(sightings_, [this](const ekf::Sighting& sighting) {
+    return map_.state().innovation_covariance(sighting).trace() > kWide_px * kWide_px;
+  });
+  return count >= (is_wide ? 3U : 1U) && (count >= 3 || 2 * count > agrees.size());
 }
 
 /// Updates the state with the sightings of the observations used_, linearised anew where that matters: a ray
@@ -479,7 +523,7 @@ void PixelSlam::book(std::size_t index) {
   const int feature = *map_.find(innovations_[index].landmark);
   if (innovations_[index].outcome == Outcome::kMatched)
     ++map_.feature(feature).observations;
-  else
+  else if (innovations_[index].outcome == Outcome::kGated)
     management_.missed(feature);
 }
 
@@ -608,8 +652,8 @@ ekf::DepthParticles::Spread PixelSlam::unknown_depth() const {
   return {0.5 * (nearest + farthest), 0.25 * (nearest - farthest)};
 }
 
-/// Whether there is a free anchor, if need be by settling the rays of the one whose rays are least useful of those
-/// that nobody sees or needs: those of fairly sure depth as points, the others are removed.
+/// Whether there is a free anchor, if need be by settling the rays of the one whose rays are least useful of
+/// those that nobody sees or needs: those of fairly sure depth as points, the others are removed.
 bool PixelSlam::free_an_anchor() {
   if (map_.has_free_anchor()) return true;
   std::array<double, kMostAnchors> worth{};

@@ -29,11 +29,11 @@ enum class Initialization {
 }  // namespace ekf
 
 struct PixelSlamOptions {
-  int capacity = 100;              ///< most landmarks in the map
-  double sigma_px = 0.5;           ///< of pixels that came without covariance
-  double model_sigma_px = 0.15;    ///< what every pixel is off besides: lens, warp, plane
-  double vibration_deg = 0.05;     ///< of the camera's pitch and roll, anew in every picture
-  double gate_probability = 0.99;  ///< part of the true sightings that may pass
+  int capacity = 100;                ///< most landmarks in the map
+  double sigma_px = 0.5;             ///< of pixels that came without covariance
+  double model_sigma_px = 0.3;       ///< what every pixel is off besides: lens, warp, plane
+  double vibration_deg = 0.05;       ///< of the camera's pitch and roll, anew in every picture
+  double gate_probability = 0.9999;  ///< part of the true sightings that may pass
   ekf::Initialization init = ekf::Initialization::kDelayed;
   ekf::DepthPrior depth;
   int most_candidates = 8;
@@ -56,6 +56,8 @@ class PixelSlam final : public Filter {
   /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
   /// once per picture. Valid until the next call of anything that changes the filter.
   [[nodiscard]] std::span<const Expectation> expect();
+  /// The landmarks of the last expect() that were not matched yet, where they are expected now.
+  [[nodiscard]] std::span<const Expectation> expect_again();
   /// Looked for where it was expected, and not found.
   void missed(std::span<const LandmarkId> landmarks);
   /// Pixel observations; may be called several times per picture. Correction::removed names those (landmarks
@@ -106,7 +108,7 @@ class PixelSlam final : public Filter {
                                           const Values& values) const;
   [[nodiscard]] std::optional<Sight> sight(int feature) const;
   [[nodiscard]] bool is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const;
-  void expect_feature(int feature);
+  [[nodiscard]] std::optional<Expectation> expect_feature(int feature) const;
   void expect_candidate(const Candidate& candidate);
 
   [[nodiscard]] Baseline baseline(const Candidate& candidate) const;
@@ -118,6 +120,7 @@ class PixelSlam final : public Filter {
   void collect(std::size_t index, const Observation& observation);
   [[nodiscard]] bool settle(std::size_t index, const Observation& observation);
   void update_agreeing(std::span<const Observation> observations);
+  [[nodiscard]] bool is_convincing(std::span<const char> agrees) const;
   [[nodiscard]] bool apply(std::span<const Observation> observations);
   [[nodiscard]] bool relinearize(std::span<const Observation> observations);
   void rescue(std::span<const Observation> observations);
@@ -142,6 +145,7 @@ class PixelSlam final : public Filter {
   ekf::MapManagement management_;
   ekf::Agreement agreement_;
   double gate_;
+  double agreement_gate_;
   std::vector<Candidate> candidates_;
   std::optional<int> anchor_;  ///< of what begins in this picture
   bool in_picture_ = false;

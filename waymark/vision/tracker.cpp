@@ -1,6 +1,7 @@
 #include "waymark/vision/tracker.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "waymark/vision/subpixel.hpp"
 #include "waymark/vision/usable_picture.hpp"
@@ -32,8 +33,13 @@ void describe(Schema& schema, TrackerOptions& o) {
                  "side of the square around a landmark that is compared");
   schema.boolean("tracker.warp", o.finder.warp, "turns and scales patches to the viewpoint");
   schema.boolean("tracker.subpixel", o.finder.subpixel, "finds places between the pixels");
+  schema.boolean(
+      "tracker.unambiguous", o.finder.unambiguous,
+      "leaves a landmark that looks right in several places of its ellipse for when less is searched");
   schema.choice("tracker.kernels", o.instructions, {"simd", "scalar"},
                 "code that compares patches and finds corners: simd, or scalar for comparison");
+  schema.integer("tracker.first_observed", o.first_observed, {0, 10000.0},
+                 "landmarks that are looked for before the filter says anew where it expects the others");
   schema.integer("tracker.most_observed", o.most_observed, {1.0, 10000.0},
                  "landmarks that are looked for in one picture");
   describe(schema, o.budget);
@@ -63,6 +69,7 @@ Tracker::Tracker(const TrackerOptions& options, const SearchOptions& search, con
   appearances_.reserve(kRoom);
   R_.reserve(kRoom);
   looks_.reserve(kRoom);
+  reported_.reserve(kRoom);
   features_.reserve(kRoom);
   proposed_.reserve(kRoom);
 }
@@ -81,12 +88,16 @@ void Tracker::begin(const ImageView& image, const Pose2& T_world_robot,
   is_usable_ = is_usable(image, camera_.width_px(), camera_.height_px(), grey_sigma_);
   ++counts_.pictures;
   counts_.unusable += !is_usable_;
+  landmarks_.budget.start(duration_from_seconds(1e-3 * options_.budget.per_frame_ms) - budget_behind() -
+                          others_);
   if (is_usable_) background_.start<&Tracker::look_behind>(this);
 }
 
 void Tracker::copy(std::span<const Expectation> expectations) {
   expectations_.assign(expectations.begin(), expectations.end());
   R_.assign(expectations.size(), Eigen::Matrix2d::Zero());
+  reported_.assign(expectations.size(), 0);
+  tried_ = 0;
   appearances_.clear();
   looks_.clear();
   features_.clear();
@@ -116,14 +127,30 @@ void Tracker::look_behind() {
   corners_took_ = thread_cpu_time() - between;
 }
 
-Sightings Tracker::match() {
+Sightings Tracker::match_first() { return match(options_.first_observed); }
+
+Sightings Tracker::match() { return match(options_.most_observed - tried_); }
+
+Sightings Tracker::match(int most) {
   BlockTimer timer(blocks_);
-  landmarks_.budget.start(duration_from_seconds(1e-3 * options_.budget.per_frame_ms) - budget_behind() -
-                          others_);
-  if (is_usable_) look_for(false, options_.most_observed, landmarks_);
+  if (is_usable_) look_for(false, most, landmarks_);
   gather(false, landmarks_);
   timer.finish(kMatch);
   return landmarks_.sightings();
+}
+
+void Tracker::renew(std::span<const Expectation> expectations) {
+  for (std::size_t k = 0; k < expectations_.size(); ++k) {
+    if (expectations_[k].candidate || looks_[k].result != Look::Result::kNotTried) continue;
+    const auto renewed = std::ranges::find(expectations, expectations_[k].id, &Expectation::id);
+    if (renewed == expectations.end()) {
+      appearances_[k] = nullptr;
+      continue;
+    }
+    expectations_[k] = *renewed;
+    looks_[k].predicted_px = renewed->predicted_px;
+    looks_[k].S = renewed->S;
+  }
 }
 
 /// Looks for the most useful of the landmarks, or candidates, that are known.
@@ -131,23 +158,27 @@ void Tracker::look_for(bool candidates, int most, Seeker& seeker) {
   seeker.prospects.clear();
   for (std::size_t k = 0; k < expectations_.size(); ++k) {
     const Expectation& e = expectations_[k];
-    if (e.candidate == candidates && appearances_[k] != nullptr)
+    if (e.candidate == candidates && appearances_[k] != nullptr &&
+        looks_[k].result == Look::Result::kNotTried)
       seeker.prospects.push_back({k, e.information_nats, seeker.finder.expected_cost_ns(e)});
   }
   order_by_usefulness(seeker.prospects);
-  const std::size_t tried = std::min(seeker.prospects.size(), static_cast<std::size_t>(most));
-  for (const Prospect& prospect : std::span(seeker.prospects).first(tried)) {
+  int tried = 0;
+  for (const Prospect& prospect : seeker.prospects) {
+    if (tried >= most) break;
     if (!seeker.budget.allows(prospect.cost_ns)) {
       seeker.is_out_of_budget = true;
-      return;
+      break;
     }
     const std::size_t k = prospect.expectation;
     const Finding finding = seeker.finder.look_for(expectations_[k], image_, here_, *appearances_[k]);
     seeker.budget.spend(finding.cost_ns);
+    tried += finding.result != Look::Result::kNotTried;
     looks_[k].result = finding.result;
     looks_[k].pixel = finding.pixel;
     R_[k] = finding.R;
   }
+  if (!candidates) tried_ += tried;
 }
 
 /// What came of them, without what learn() has been told to forget meanwhile.
@@ -156,7 +187,8 @@ void Tracker::gather(bool candidates, Seeker& seeker) {
   seeker.missed.clear();
   for (std::size_t k = 0; k < expectations_.size(); ++k) {
     const Look& look = looks_[k];
-    if (expectations_[k].candidate != candidates || memory_.find(look.id) == nullptr) continue;
+    if (expectations_[k].candidate != candidates || look.result == Look::Result::kNotTried) continue;
+    if (std::exchange(reported_[k], 1) != 0 || memory_.find(look.id) == nullptr) continue;
     if (look.result == Look::Result::kFound)
       seeker.found.push_back({look.id, Pixel{look.pixel.x(), look.pixel.y()}, R_[k]});
     if (look.result == Look::Result::kMissed) seeker.missed.push_back(look.id);
