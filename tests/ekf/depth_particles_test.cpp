@@ -44,12 +44,12 @@ TEST(DepthParticles, SpansThePriorInEqualStepsOfWhatItIsUniformIn) {
 }
 
 TEST(DepthParticles, MomentsOfThePriorAreThoseOfTheUniformDistribution) {
-  const DepthParticles by_inverse({1000, 0.5, 10.0, Spacing::kInverseDepth});
+  const DepthParticles by_inverse({10, 0.5, 10.0, Spacing::kInverseDepth});
   EXPECT_NEAR(by_inverse.inverse_depth().mean, 1.05, 1e-9);
-  EXPECT_NEAR(by_inverse.inverse_depth().sigma, 1.9 / std::sqrt(12.0), 1e-5);
-  const DepthParticles by_depth({1000, 0.5, 10.0, Spacing::kDepth});
+  EXPECT_NEAR(by_inverse.inverse_depth().sigma, 1.9 / std::sqrt(12.0), 1e-9);
+  const DepthParticles by_depth({10, 0.5, 10.0, Spacing::kDepth});
   EXPECT_NEAR(by_depth.depth().mean, 5.25, 1e-9);
-  EXPECT_NEAR(by_depth.depth().sigma, 9.5 / std::sqrt(12.0), 1e-4);
+  EXPECT_NEAR(by_depth.depth().sigma, 9.5 / std::sqrt(12.0), 1e-9);
 }
 
 TEST(DepthParticles, TakesTheProductOfWhatItWasTold) {
@@ -81,6 +81,22 @@ TEST(DepthParticles, DropsWhatIsImpossibleOrAllButAndTheRestSumsToOne) {
   EXPECT_GE(std::ranges::min(left), 1.0);
   const double mean = (std::ranges::min(left) + std::ranges::max(left)) / 2.0;
   EXPECT_NEAR(particles.inverse_depth().mean, mean, 1e-9);
+}
+
+TEST(DepthParticles, ASingleOneThatIsLeftIsAsUnsureAsItsShareOfThePrior) {
+  for (const auto spacing : {Spacing::kInverseDepth, Spacing::kDepth}) {
+    DepthParticles particles({100, 0.5, 10.0, spacing});
+    particles.score(gaussian(0.5, 1e-4));
+    particles.take();
+    EXPECT_EQ(particles.size(), 1U);
+    const auto inverse = particles.inverse_depth();
+    const auto depth = particles.depth();
+    if (spacing == Spacing::kInverseDepth)
+      EXPECT_NEAR(inverse.sigma, 0.019 / std::sqrt(12.0), 1e-9);
+    else
+      EXPECT_NEAR(depth.sigma, 0.095 / std::sqrt(12.0), 1e-9);
+    EXPECT_NEAR(depth.sigma / depth.mean, inverse.sigma / inverse.mean, 1e-9);
+  }
 }
 
 TEST(DepthParticles, LikelihoodsMayBeSmallerThanNumbersAre) {
