@@ -114,6 +114,24 @@ TEST(PixelSlam, LinearisedAtTheLatestEstimateItIsTooSure) {
   EXPECT_GT(standard, 2.0 * invariant);
 }
 
+TEST(PixelSlam, WithTheTextbookUpdateItIsTheArticlesFilter) {
+  PixelSlamOptions options;
+  options.init = ekf::Initialization::kArticle;
+  options.capacity = 30;
+  const auto drive = [&](UpdateMethod update) {
+    Drive made(11, {.consistency = ekf::Consistency::kStandard, .update = update}, options);
+    made.run(120);
+    EXPECT_GT(made.filter.map().features().size(), 10U);
+    EXPECT_LT(made.error_m(), 0.1);
+    return made.filter.pose();
+  };
+  const auto fast = drive(UpdateMethod::kFast);
+  const auto textbook = drive(UpdateMethod::kTextbook);
+  // They differ in who may take part, not in what the update is.
+  EXPECT_LT((fast.T_world_robot.position() - textbook.T_world_robot.position()).norm(), 0.03);
+  EXPECT_TRUE(is_covariance(textbook.covariance));
+}
+
 TEST(PixelSlam, RaysFromTheFirstSightOnSayTheSame) {
   PixelSlamOptions options;
   options.init = ekf::Initialization::kInverseDepth;

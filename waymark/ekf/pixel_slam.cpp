@@ -107,6 +107,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
   used_.reserve(ekf::State::kMaxSightings);
   refined_.reserve(ekf::State::kMaxSightings);
   if (options.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
+  if (ekf.update == UpdateMethod::kTextbook) map_.state().use_textbook_update();
 }
 
 void PixelSlam::predict(const Motion& motion) {
@@ -353,8 +354,12 @@ void PixelSlam::update(std::span<const Observation> observations) {
       if (innovations_[next].outcome == Outcome::kMatched && map_.find(innovations_[next].landmark))
         collect(next, observations[next]);
     if (sightings_.empty()) continue;
-    update_agreeing(observations);
-    rescue(observations);
+    if (map_.state().updates_by_textbook()) {
+      update_gated(observations);
+    } else {
+      update_agreeing(observations);
+      rescue(observations);
+    }
     for (const std::size_t i : seen_) book(i);
   }
 }
@@ -398,9 +403,20 @@ bool PixelSlam::settle(std::size_t index, const Observation& observation) {
 void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   const auto S = map_.state().joint_innovation_covariance(sightings_);
   const auto agrees = agreement_.largest(S, nus_, gate_);
+  update_those(observations, [agrees](std::size_t k) { return agrees[k] != 0; });
+}
+
+/// As in the article: each by itself.
+void PixelSlam::update_gated(std::span<const Observation> observations) {
+  update_those(observations, [this](std::size_t k) { return innovations_[seen_[k]].nis <= gate_; });
+}
+
+/// Updates with those of the block that `fits` (by their places in it) lets pass; the others are left as gated.
+template <class Fits>
+void PixelSlam::update_those(std::span<const Observation> observations, const Fits& fits) {
   used_.clear();
   for (std::size_t k = 0; k < seen_.size(); ++k) {
-    if (agrees[k] != 0) {
+    if (fits(k)) {
       sightings_[used_.size()] = sightings_[k];
       used_.push_back(seen_[k]);
     } else {
@@ -418,7 +434,8 @@ bool PixelSlam::apply(std::span<const Observation> observations) {
   if (used_.empty()) return true;
   ekf::State& state = map_.state();
   if (!state.propose(sightings_)) return false;
-  if (state.consistency() != ekf::Consistency::kFej && options_.init != ekf::Initialization::kArticle)
+  const bool as_published = options_.init == ekf::Initialization::kArticle || state.updates_by_textbook();
+  if (state.consistency() != ekf::Consistency::kFej && !as_published)
     for (int i = 0; i < kMostIterations && relinearize(observations); ++i)
       if (!state.propose(sightings_)) return false;
   state.accept();

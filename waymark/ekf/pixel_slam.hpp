@@ -118,6 +118,9 @@ class PixelSlam final : public Filter {
   void collect(std::size_t index, const Observation& observation);
   [[nodiscard]] bool settle(std::size_t index, const Observation& observation);
   void update_agreeing(std::span<const Observation> observations);
+  void update_gated(std::span<const Observation> observations);
+  template <class Fits>
+  void update_those(std::span<const Observation> observations, const Fits& fits);
   [[nodiscard]] bool apply(std::span<const Observation> observations);
   [[nodiscard]] bool relinearize(std::span<const Observation> observations);
   void rescue(std::span<const Observation> observations);
