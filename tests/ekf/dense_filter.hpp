@@ -56,22 +56,14 @@ class DenseFilter {
     for (int k = 0; k < 2; ++k) P_(3 + 2 * pair + k, 3 + 2 * pair + k) += 1 - Scalar(rho) * Scalar(rho);
   }
 
+  /// S = H P H^T + R of all sightings together.
+  [[nodiscard]] Eigen::MatrixXd innovation_covariance(std::span<const ekf::Sighting> sightings) const {
+    const auto [H, R, nu] = stack(sightings);
+    return (H * P_ * H.transpose() + R).cast<double>();
+  }
+
   void update(std::span<const ekf::Sighting> sightings) {
-    int rows = 0;
-    for (const auto& s : sightings) rows += s.rows;
-    Matrix H = Matrix::Zero(rows, size());
-    Matrix R = Matrix::Zero(rows, rows);
-    Vector nu(rows);
-    int row = 0;
-    for (const auto& s : sightings) {
-      H.block(row, 0, s.rows, 3) = s.H_pose.topRows(s.rows).cast<Scalar>();
-      H.block(row, head_ + dimension_ * s.landmark, s.rows, dimension_) =
-          s.H_landmark.topLeftCorner(s.rows, dimension_).cast<Scalar>();
-      H.middleRows(row, s.rows) += error_columns(s.errors, s.rows);
-      R.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows).cast<Scalar>();
-      nu.segment(row, s.rows) = s.nu.head(s.rows).cast<Scalar>();
-      row += s.rows;
-    }
+    const auto [H, R, nu] = stack(sightings);
     const Matrix S = H * P_ * H.transpose() + R;
     const Matrix K = S.llt().solve(H * P_).transpose();
     const Vector dx = K * nu;
@@ -94,11 +86,34 @@ class DenseFilter {
     P_ = grown;
     x_.conservativeResize(n + dimension_);
     x_.tail(dimension_) = position.head(dimension_).cast<Scalar>();
+    relative_.push_back(false);
+  }
+
+  void add_pose() {
+    const Eigen::Vector3d here = x_.head(3).cast<double>();
+    add(here, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero());
+    x_.tail(3) = x_.head(3).eval();
+  }
+
+  void add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
+                    const ekf::ErrorTerms& errors = {}) {
+    add(values, Eigen::Matrix3d::Zero(), noise, errors);
+    relative_.back() = true;
+  }
+
+  void make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
+                     const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark) {
+    Matrix G = Matrix::Identity(size(), size());
+    G.block(place(landmark), place(landmark), 3, 3) = G_landmark.cast<Scalar>();
+    G.block(place(landmark), place(anchor), 3, 3) = G_anchor.cast<Scalar>();
+    P_ = (G * P_ * G.transpose()).eval();
+    x_.segment(place(landmark), 3) = position.cast<Scalar>();
+    relative_[static_cast<std::size_t>(landmark)] = false;
   }
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index) {
-    const int to = head_ + dimension_ * index;
+    const int to = place(index);
     const int from = size() - dimension_;
     Eigen::PermutationMatrix<Eigen::Dynamic> swap(size());
     swap.setIdentity();
@@ -106,6 +121,8 @@ class DenseFilter {
       std::swap(swap.indices()[to + a], swap.indices()[from + a]);
     P_ = (swap * P_ * swap.transpose()).eval().topLeftCorner(from, from).eval();
     x_ = (swap * x_).eval().head(from).eval();
+    relative_[static_cast<std::size_t>(index)] = relative_.back();
+    relative_.pop_back();
   }
 
   [[nodiscard]] int size() const { return static_cast<int>(x_.size()); }
@@ -115,6 +132,32 @@ class DenseFilter {
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return x_.segment(3 + 2 * pair, 2).cast<double>(); }
 
  private:
+  struct Stack {
+    Matrix H, R;
+    Vector nu;
+  };
+  [[nodiscard]] Stack stack(std::span<const ekf::Sighting> sightings) const {
+    int rows = 0;
+    for (const auto& s : sightings) rows += s.rows;
+    Stack all{Matrix::Zero(rows, size()), Matrix::Zero(rows, rows), Vector(rows)};
+    int row = 0;
+    for (const auto& s : sightings) {
+      auto H = all.H.middleRows(row, s.rows);
+      H.leftCols(3) = s.H_pose.topRows(s.rows).cast<Scalar>();
+      H.middleCols(place(s.landmark), dimension_) =
+          s.H_landmark.topLeftCorner(s.rows, dimension_).cast<Scalar>();
+      if (s.anchor >= 0)
+        H.middleCols(place(s.anchor), dimension_) =
+            s.H_anchor.topLeftCorner(s.rows, dimension_).cast<Scalar>();
+      H += error_columns(s.errors, s.rows);
+      all.R.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows).cast<Scalar>();
+      all.nu.segment(row, s.rows) = s.nu.head(s.rows).cast<Scalar>();
+      row += s.rows;
+    }
+    return all;
+  }
+
+  [[nodiscard]] int place(int landmark) const { return head_ + dimension_ * landmark; }
   [[nodiscard]] std::vector<int> places() const {
     std::vector<int> places{0, 1, 2};
     for (int i = head_; i < size(); ++i) places.push_back(i);
@@ -139,7 +182,8 @@ class DenseFilter {
   }
 
   /// The right-invariant filter in its native words: every point q moves as the group does,
-  /// q+ = R(a) q + V(a) (dq - a J q), and the covariance is sheared along d = J (q+ - q).
+  /// q+ = R(a) q + V(a) (dq - a J q), and the covariance is sheared along d = J (q+ - q). The heading of a
+  /// pose is added to, and so is all that is relative to one.
   void move_invariantly(const Vector& dx) {
     const Scalar a = dx[2];
     Eigen::Matrix<Scalar, 2, 2> R{{std::cos(a), -std::sin(a)}, {std::sin(a), std::cos(a)}};
@@ -148,6 +192,10 @@ class DenseFilter {
     if (a != 0) V << std::sin(a) / a, -(1 - std::cos(a)) / a, (1 - std::cos(a)) / a, std::sin(a) / a;
     Vector d = Vector::Zero(size());
     for (int at = 0; at < size(); at = at == 0 ? head_ : at + dimension_) {
+      if (at > 0 && relative_[static_cast<std::size_t>((at - head_) / dimension_)]) {
+        x_.segment(at, dimension_) += dx.segment(at, dimension_);
+        continue;
+      }
       const Eigen::Matrix<Scalar, 2, 1> q = x_.segment(at, 2);
       const Eigen::Matrix<Scalar, 2, 1> moved =
           R * q + V * (Eigen::Matrix<Scalar, 2, 1>(dx.segment(at, 2)) - a * J * q);
@@ -168,6 +216,7 @@ class DenseFilter {
   Vector x_;
   Matrix P_;
   Vector linearized_;
+  std::vector<bool> relative_;  // by landmark
 };
 
 }  // namespace waymark::test

@@ -27,6 +27,7 @@ class PointRoom {
     int points = 400;
     double pixel_sigma = 0.3;
     int most_in_view = 25;  ///< new points are shown while fewer are tracked
+    double moving = 0.0;    ///< part of the points that walk to and fro by the walls at 1 m/s
   };
 
   PointRoom(std::uint64_t seed, const Options& options)
@@ -41,12 +42,21 @@ class PointRoom {
 
   [[nodiscard]] const CameraOptions& camera() const { return camera_options_; }
   [[nodiscard]] const Pose2& truth() const { return truth_; }
-  [[nodiscard]] const Eigen::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  /// Where a point is now.
+  [[nodiscard]] Eigen::Vector3d point(int i) const {
+    const Eigen::Vector3d& home = points_[static_cast<std::size_t>(i)];
+    if (!moves(i)) return home;
+    const double sway_m = std::abs(std::fmod(driven_m_ / kSpeed_mps + i, 4.0) - 2.0) - 1.0;
+    return home + sway_m * Eigen::Vector3d(-home.y(), home.x(), 0.0).normalized();
+  }
+  [[nodiscard]] bool moves(int i) const { return i < options_.moving * options_.points; }
   [[nodiscard]] double driven_m() const { return driven_m_; }
 
-  /// A thirtieth of a second at 0.5 m/s; corners have a radius of 0.5 m.
+  static constexpr double kSpeed_mps = 0.5;
+
+  /// A thirtieth of a second; corners have a radius of 0.5 m.
   Motion move() {
-    const double ds = 0.5 / 30.0;
+    const double ds = kSpeed_mps / 30.0;
     const double side_m = 5.0, arc_m = 0.25 * kPi;
     const double along = std::fmod(driven_m_, side_m + arc_m);
     const double turn = along < side_m ? 0.0 : ds / 0.5;

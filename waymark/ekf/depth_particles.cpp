@@ -5,12 +5,18 @@ namespace waymark::ekf {
 void DepthParticles::restart() {
   const auto count = static_cast<std::size_t>(prior_.particles);
   particles_.resize(count);
+  const auto cells = static_cast<double>(count);
+  const double nearest_per_m = 1.0 / prior_.nearest_m, farthest_per_m = 1.0 / prior_.farthest_m;
+  const double step_m = (prior_.farthest_m - prior_.nearest_m) / cells;
+  const double step_per_m = (nearest_per_m - farthest_per_m) / cells;
   for (std::size_t i = 0; i < count; ++i) {
-    const double part = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double depth_m = prior_.nearest_m + part * (prior_.farthest_m - prior_.nearest_m);
-    const double rho = 1.0 / prior_.nearest_m + part * (1.0 / prior_.farthest_m - 1.0 / prior_.nearest_m);
-    particles_[i] = {prior_.spacing == DepthPrior::Spacing::kDepth ? 1.0 / depth_m : rho,
-                     1.0 / static_cast<double>(count), 0.0};
+    const double steps = static_cast<double>(i) + 0.5;
+    if (prior_.spacing == DepthPrior::Spacing::kDepth) {
+      const double rho = 1.0 / (prior_.nearest_m + steps * step_m);
+      particles_[i] = {rho, step_m * rho * rho, 1.0 / cells, 0.0};
+    } else {
+      particles_[i] = {nearest_per_m - steps * step_per_m, step_per_m, 1.0 / cells, 0.0};
+    }
   }
 }
 

@@ -19,7 +19,9 @@ struct DepthPrior {
 };
 
 /// Where along its ray a point may be: particles over its depth, weighted by every picture in which it is
-/// found (Davison 2003; Vincke et al. 2012, section 2.4). Nothing allocates after construction.
+/// found (Davison 2003; Vincke et al. 2012, section 2.4). A particle stands for all depths that are nearer to
+/// it than to others, so that a single one that is left is not a depth that is known for sure. Nothing
+/// allocates after construction.
 class DepthParticles {
  public:
   explicit DepthParticles(const DepthPrior& prior) : prior_(prior) { restart(); }
@@ -40,23 +42,31 @@ class DepthParticles {
     double sigma;
   };
   [[nodiscard]] Spread inverse_depth() const {
-    return spread([](double rho) { return rho; });
+    return spread([](const Particle& particle) { return Cell{particle.rho_per_m, particle.width_per_m}; });
   }
   [[nodiscard]] Spread depth() const {
-    return spread([](double rho) { return 1.0 / rho; });
+    return spread([](const Particle& particle) {
+      const double depth_m = 1.0 / particle.rho_per_m;
+      return Cell{depth_m, particle.width_per_m * depth_m * depth_m};
+    });
   }
   [[nodiscard]] std::size_t size() const { return particles_.size(); }
 
  private:
   struct Particle {
     double rho_per_m;
+    double width_per_m;  ///< of the inverse depths that it stands for
     double weight;
     double log_likelihood;
   };
+  struct Cell {
+    double middle;
+    double width;
+  };
   static constexpr double kLeastWeight = 1e-4;
 
-  template <class Value>
-  [[nodiscard]] Spread spread(const Value& value) const;
+  template <class CellOf>
+  [[nodiscard]] Spread spread(const CellOf& cell_of) const;
   [[nodiscard]] double total() const;
 
   DepthPrior prior_;
@@ -74,13 +84,14 @@ double DepthParticles::score(const LogLikelihood& log_likelihood) {
   return best_;
 }
 
-template <class Value>
-DepthParticles::Spread DepthParticles::spread(const Value& value) const {
+template <class CellOf>
+DepthParticles::Spread DepthParticles::spread(const CellOf& cell_of) const {
   double mean = 0.0, square = 0.0;
-  for (const Particle& particle : particles_) mean += particle.weight * value(particle.rho_per_m);
+  for (const Particle& particle : particles_) mean += particle.weight * cell_of(particle).middle;
   for (const Particle& particle : particles_) {
-    const double d = value(particle.rho_per_m) - mean;
-    square += particle.weight * d * d;
+    const auto [middle, width] = cell_of(particle);
+    const double d = middle - mean;
+    square += particle.weight * (d * d + width * width / 12.0);
   }
   return {mean, std::sqrt(square)};
 }

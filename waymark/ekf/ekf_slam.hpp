@@ -23,6 +23,12 @@ enum class Likelihood {
 
 }  // namespace ekf
 
+/// How updates of the camera's filter are computed.
+enum class UpdateMethod {
+  kFast,     ///< only what H touches, as P -= W^T W
+  kTextbook  ///< with dense matrices and plain loops, to compare with: needs Consistency::kStandard
+};
+
 /// Whether the map outside of the robot's region is left alone for the time being.
 enum class Compress { kAuto, kAlways, kNever };
 
@@ -33,6 +39,7 @@ struct EkfOptions {
   Compress compressed = Compress::kAuto;
   int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
+  UpdateMethod update = UpdateMethod::kFast;
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
 };
 

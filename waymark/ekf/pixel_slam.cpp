@@ -116,6 +116,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
   used_.reserve(ekf::State::kMaxSightings);
   refined_.reserve(ekf::State::kMaxSightings);
   if (options.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
+  if (ekf.update == UpdateMethod::kTextbook) map_.state().use_textbook_update();
 }
 
 void PixelSlam::predict(const Motion& motion) {
@@ -376,8 +377,12 @@ void PixelSlam::update(std::span<const Observation> observations) {
       if (innovations_[next].outcome == Outcome::kMatched && map_.find(innovations_[next].landmark))
         collect(next, observations[next]);
     if (sightings_.empty()) continue;
-    update_agreeing(observations);
-    rescue(observations);
+    if (map_.state().updates_by_textbook()) {
+      update_gated(observations);
+    } else {
+      update_agreeing(observations);
+      rescue(observations);
+    }
     for (const std::size_t i : seen_) book(i);
   }
 }
@@ -429,14 +434,28 @@ void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   };
   int returning = 0;
   for (std::size_t k = 0; k < seen_.size(); ++k) returning += returns(k);
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
+    Outcome& outcome = innovations_[seen_[k]].outcome;
+    if (!is_convincing || agrees[k] == 0)
+      outcome = Outcome::kGated;
+    else if (returns(k) && returning < kWitnesses)
+      outcome = Outcome::kUnusable;
+  }
+  update_matched(observations);
+}
+
+/// As in the article: each by itself.
+void PixelSlam::update_gated(std::span<const Observation> observations) {
+  for (const std::size_t i : seen_)
+    if (innovations_[i].nis > gate_) innovations_[i].outcome = Outcome::kGated;
+  update_matched(observations);
+}
+
+/// Updates with those of the block that are still matched.
+void PixelSlam::update_matched(std::span<const Observation> observations) {
   used_.clear();
   for (std::size_t k = 0; k < seen_.size(); ++k) {
-    Innovation& innovation = innovations_[seen_[k]];
-    if (!is_convincing || agrees[k] == 0) {
-      innovation.outcome = Outcome::kGated;
-    } else if (returns(k) && returning < kWitnesses) {
-      innovation.outcome = Outcome::kUnusable;
-    } else {
+    if (innovations_[seen_[k]].outcome == Outcome::kMatched) {
       sightings_[used_.size()] = sightings_[k];
       used_.push_back(seen_[k]);
     }
@@ -462,7 +481,8 @@ bool PixelSlam::apply(std::span<const Observation> observations) {
   if (used_.empty()) return true;
   ekf::State& state = map_.state();
   if (!state.propose(sightings_)) return false;
-  if (state.consistency() != ekf::Consistency::kFej && options_.init != ekf::Initialization::kArticle)
+  const bool as_published = options_.init == ekf::Initialization::kArticle || state.updates_by_textbook();
+  if (state.consistency() != ekf::Consistency::kFej && !as_published)
     for (int i = 0; i < kMostIterations && relinearize(observations); ++i)
       if (!state.propose(sightings_)) return false;
   state.accept();

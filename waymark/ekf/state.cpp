@@ -184,6 +184,7 @@ bool State::propose(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (sightings.empty()) return true;
   join_robot_rows();
+  if (textbook_) return propose_by_textbook(sightings);
   const std::size_t rows = rows_ = project(sightings);
   form_innovation_covariance(sightings, static_cast<int>(rows));
   if (!factorize(static_cast<int>(rows))) return false;
@@ -191,6 +192,38 @@ bool State::propose(std::span<const Sighting> sightings) {
   std::fill_n(dx_.data(), size(), 0.0);
   kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), size());
   return true;
+}
+
+void State::use_textbook_update() {
+  assert(consistency_ == Consistency::kStandard);
+  textbook_ = std::make_unique<TextbookUpdate>(2 * kMaxSightings, offset(capacity_));
+}
+
+bool State::propose_by_textbook(std::span<const Sighting> sightings) {
+  std::size_t D = 0;
+  for (const Sighting& sighting : sightings) D += static_cast<std::size_t>(sighting.rows);
+  textbook_->begin(D, size());
+  std::size_t row = 0;
+  for (const Sighting& sighting : sightings) {
+    const Touched t = touched(sighting, sighting.rows);
+    for (int r = 0; r < sighting.rows; ++r, ++row) {
+      for (int k = 0; k < t.J.cols(); ++k) textbook_->H(row, t.rows[static_cast<std::size_t>(k)]) = t.J(r, k);
+      for (int s = 0; s < sighting.rows; ++s)
+        textbook_->R(row, row + static_cast<std::size_t>(s) - static_cast<std::size_t>(r)) = sighting.R(r, s);
+      textbook_->nu(row, 0) = sighting.nu[r];
+    }
+  }
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t j = 0; j < size(); ++j) textbook_->P(i, j) = P(i, j);
+  if (!textbook_->solve()) return false;
+  for (std::size_t i = 0; i < size(); ++i) dx_[i] = textbook_->dx(i, 0);
+  return true;
+}
+
+void State::correct_covariance_by_textbook() {
+  textbook_->correct();
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t j = i; j < size(); ++j) P_[i * ld_ + j] = textbook_->P(i, j);
 }
 
 void State::accept() {
@@ -307,7 +340,7 @@ void State::apply_additively() {
   for (std::size_t j = 0; j < size(); ++j) x_[j] += dx_[j];
   x_[2] = wrap_angle(x_[2]);
   if (consistency_ == Consistency::kStandard) linearization_pose_ = {x_[0], x_[1], x_[2]};
-  correct_covariance(false);
+  textbook_ ? correct_covariance_by_textbook() : correct_covariance(false);
 }
 
 /// The ordinary increment dq of every ground point becomes V(a) dq, with a the change of heading, and the

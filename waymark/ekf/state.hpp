@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/parallel.hpp"
+#include "waymark/ekf/textbook_update.hpp"
 #include "waymark/ekf/touched.hpp"
 #include "waymark/kernels/layout.hpp"
 
@@ -78,6 +80,11 @@ class State {
   /// Position and covariance of a landmark; z is 0 for 2-D ones. World frame.
   [[nodiscard]] Eigen::Vector3d landmark(int index) const;
   [[nodiscard]] Eigen::Matrix3d landmark_covariance(int index) const;
+
+  /// From now on updates are computed as a textbook has it, for comparison (takes the memory for that). Only
+  /// with kStandard; gain() is not to be had.
+  void use_textbook_update();
+  [[nodiscard]] bool updates_by_textbook() const { return textbook_ != nullptr; }
 
   /// Where Jacobians are to be taken: the present estimate, or the first ones with kFej.
   [[nodiscard]] Pose2 linearization_pose() const;
@@ -198,6 +205,8 @@ class State {
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
   [[nodiscard]] bool factorize(int rows);
+  [[nodiscard]] bool propose_by_textbook(std::span<const Sighting> sightings);
+  void correct_covariance_by_textbook();
   void apply_additively();
   void apply_invariantly();
   [[nodiscard]] Eigen::Matrix2d increment_jacobian() const;
@@ -230,6 +239,7 @@ class State {
   Pose2 linearization_pose_;  // the predicted pose, x_{k|k-1}
 
   ThreadTeam team_;
+  std::unique_ptr<TextbookUpdate> textbook_;  // where that is used
 };
 
 }  // namespace waymark::ekf

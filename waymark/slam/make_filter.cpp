@@ -6,6 +6,9 @@ namespace {
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.associate != Association::kKnown)
     return Error{"associate: the EKF needs identities so far; sightings without: filter=fastslam"};
+  if (config.ekf.update == UpdateMethod::kTextbook &&
+      (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
+    return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(

@@ -1,0 +1,98 @@
+#include "waymark/ekf/textbook_update.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace waymark::ekf {
+namespace {
+
+/// C = A B
+void multiply(const DenseMatrix& A, const DenseMatrix& B, DenseMatrix& C) {
+  C.reset(A.rows(), B.columns());
+  for (std::size_t i = 0; i < A.rows(); ++i) {
+    for (std::size_t j = 0; j < B.columns(); ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < A.columns(); ++k) sum += A(i, k) * B(k, j);
+      C(i, j) = sum;
+    }
+  }
+}
+
+/// C = A B^T
+void multiply_transposed(const DenseMatrix& A, const DenseMatrix& B, DenseMatrix& C) {
+  C.reset(A.rows(), B.rows());
+  for (std::size_t i = 0; i < A.rows(); ++i) {
+    for (std::size_t j = 0; j < B.rows(); ++j) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < A.columns(); ++k) sum += A(i, k) * B(j, k);
+      C(i, j) = sum;
+    }
+  }
+}
+
+}  // namespace
+
+TextbookUpdate::TextbookUpdate(std::size_t most_rows, std::size_t largest_state)
+    : H(most_rows, largest_state),
+      R(most_rows, most_rows),
+      P(largest_state, largest_state),
+      nu(most_rows, 1),
+      dx(largest_state, 1),
+      PHt_(largest_state, most_rows),
+      S_(most_rows, most_rows),
+      S_inverse_(most_rows, most_rows),
+      K_(largest_state, most_rows),
+      I_KH_(largest_state, largest_state),
+      P_new_(largest_state, largest_state) {}
+
+void TextbookUpdate::begin(std::size_t rows, std::size_t size) {
+  H.reset(rows, size);
+  R.reset(rows, rows);
+  P.reset(size, size);
+  nu.reset(rows, 1);
+}
+
+bool TextbookUpdate::solve() {
+  multiply_transposed(P, H, PHt_);
+  multiply(H, PHt_, S_);
+  for (std::size_t i = 0; i < S_.rows(); ++i)
+    for (std::size_t j = 0; j < S_.rows(); ++j) S_(i, j) += R(i, j);
+  if (!invert_S()) return false;
+  multiply(PHt_, S_inverse_, K_);
+  multiply(K_, nu, dx);
+  return true;
+}
+
+/// By Gauss and Jordan; the pivots of a positive definite matrix are positive without a search for them.
+bool TextbookUpdate::invert_S() {
+  const std::size_t D = S_.rows();
+  S_inverse_.reset(D, D);
+  for (std::size_t i = 0; i < D; ++i) S_inverse_(i, i) = 1.0;
+  for (std::size_t pivot = 0; pivot < D; ++pivot) {
+    const double p = S_(pivot, pivot);
+    if (!(p > 0.0) || !std::isfinite(p)) return false;
+    for (std::size_t j = 0; j < D; ++j) {
+      S_(pivot, j) /= p;
+      S_inverse_(pivot, j) /= p;
+    }
+    for (std::size_t i = 0; i < D; ++i) {
+      if (i == pivot) continue;
+      const double factor = S_(i, pivot);
+      for (std::size_t j = 0; j < D; ++j) {
+        S_(i, j) -= factor * S_(pivot, j);
+        S_inverse_(i, j) -= factor * S_inverse_(pivot, j);
+      }
+    }
+  }
+  return true;
+}
+
+void TextbookUpdate::correct() {
+  multiply(K_, H, I_KH_);
+  for (std::size_t i = 0; i < I_KH_.rows(); ++i)
+    for (std::size_t j = 0; j < I_KH_.rows(); ++j) I_KH_(i, j) = (i == j ? 1.0 : 0.0) - I_KH_(i, j);
+  multiply(I_KH_, P, P_new_);
+  std::swap(P, P_new_);
+}
+
+}  // namespace waymark::ekf
