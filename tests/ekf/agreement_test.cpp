@@ -118,17 +118,19 @@ TEST(Agreement, OfTwoThatDisagreeTakesTheLikelierOne) {
 }
 
 TEST(Agreement, WrongPlacesThatAreShared) {
-  // Three bricks on, at four standard deviations of what all have in common, against two where they should
-  // be.
+  // A brick on, at four standard deviations of what all have in common, against two where they should be.
   Agreement agreement(8);
-  Picture picture{RowMajor::Constant(10, 10, 0.0), {}};
-  for (int i = 0; i < 10; ++i)
-    for (int j = 0; j < 10; ++j) picture.S(i, j) = (i % 2 == j % 2 ? 10.0 : 0.0) + (i == j ? 0.5 : 0.0);
-  for (const double u : {12.4, 12.6, 12.5, -1.0, -1.2}) picture.nu.emplace_back(u, 0.3);
-  EXPECT_EQ(best(agreement, picture), (std::vector<char>{1, 1, 1, 0, 0})) << "they cost 15.9 and two misses";
-  picture.nu.erase(picture.nu.begin());
-  EXPECT_EQ(best(agreement, picture), (std::vector<char>{0, 0, 1, 1})) << "as many, but far likelier";
-  EXPECT_EQ(agreement.hypothesis(), 2U);
+  const auto with_wrong = [&](int wrong) {
+    const int n = wrong + 2;
+    Picture picture{RowMajor::Zero(2 * n, 2 * n), {}};
+    for (int i = 0; i < 2 * n; ++i)
+      for (int j = 0; j < 2 * n; ++j) picture.S(i, j) = (i % 2 == j % 2 ? 10.0 : 0.0) + (i == j ? 0.5 : 0.0);
+    for (int k = 0; k < n; ++k) picture.nu.emplace_back(k < wrong ? 12.4 : -1.0, 0.3);
+    return best(agreement, picture);
+  };
+  EXPECT_EQ(with_wrong(3), (std::vector<char>{0, 0, 0, 1, 1})) << "more, but not more likely";
+  EXPECT_EQ(with_wrong(4), (std::vector<char>{1, 1, 1, 1, 0, 0})) << "so many cannot be chance";
+  EXPECT_EQ(agreement.hypothesis(), 0U);
 }
 
 TEST(Agreement, WhatIsLeftOfASightingIsItsConditionalCovariance) {

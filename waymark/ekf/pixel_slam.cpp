@@ -114,6 +114,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
   nus_.reserve(ekf::State::kMaxSightings);
   seen_.reserve(ekf::State::kMaxSightings);
   used_.reserve(ekf::State::kMaxSightings);
+  told_.reserve(ekf::State::kMaxSightings);
   refined_.reserve(ekf::State::kMaxSightings);
   if (options.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
   if (ekf.update == UpdateMethod::kTextbook) map_.state().use_textbook_update();
@@ -373,6 +374,7 @@ void PixelSlam::update(std::span<const Observation> observations) {
     sightings_.clear();
     nus_.clear();
     seen_.clear();
+    told_.clear();
     for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next)
       if (innovations_[next].outcome == Outcome::kMatched && map_.find(innovations_[next].landmark))
         collect(next, observations[next]);
@@ -383,24 +385,21 @@ void PixelSlam::update(std::span<const Observation> observations) {
       update_agreeing(observations);
       rescue(observations);
     }
-    for (const std::size_t i : seen_) book(i);
+    for (std::size_t k = 0; k < seen_.size(); ++k) book(k);
   }
 }
 
 /// Linearises one sighting at the present estimate.
 void PixelSlam::collect(std::size_t index, const Observation& observation) {
   Innovation& innovation = innovations_[index];
-  const int feature = *map_.find(innovation.landmark);
   if (!settle(index, observation)) {
     innovation.outcome = Outcome::kUnusable;
     return;
   }
-  if (!management_.evicts()) return;
   const ekf::State& state = map_.state();
   const ekf::Sighting& sighting = sightings_.back();
-  if (innovation.nis <= innovation.gate)
-    management_.matched(feature, {state.pose().covariance, state.pose_correlation(sighting),
-                                  state.innovation_covariance(sighting), sighting.H_pose});
+  told_.push_back({state.pose().covariance, state.pose_correlation(sighting),
+                   state.innovation_covariance(sighting), sighting.H_pose});
 }
 
 /// Appends a sighting to those of the block and notes its NIS.
@@ -539,12 +538,16 @@ void PixelSlam::rescue(std::span<const Observation> observations) {
   for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
 }
 
-void PixelSlam::book(std::size_t index) {
-  const int feature = *map_.find(innovations_[index].landmark);
-  if (innovations_[index].outcome == Outcome::kMatched)
+/// Notes of the k-th sighting of the block how useful its landmark was.
+void PixelSlam::book(std::size_t k) {
+  const Innovation& innovation = innovations_[seen_[k]];
+  const int feature = *map_.find(innovation.landmark);
+  if (innovation.outcome == Outcome::kMatched) {
     ++map_.feature(feature).observations;
-  else if (innovations_[index].outcome == Outcome::kGated)
+    management_.matched(feature, told_[k]);
+  } else if (innovation.outcome == Outcome::kGated) {
     management_.missed(feature);
+  }
 }
 
 /// Rays that were seen and have become as good as linear go on as points; those that lead behind infinity go.

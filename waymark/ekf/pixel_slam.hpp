@@ -126,7 +126,7 @@ class PixelSlam final : public Filter {
   [[nodiscard]] bool apply(std::span<const Observation> observations);
   [[nodiscard]] bool relinearize(std::span<const Observation> observations);
   void rescue(std::span<const Observation> observations);
-  void book(std::size_t index);
+  void book(std::size_t k);
   void settle_rays();
   void weigh(std::size_t index, std::span<const Observation> observations);
   void accept(Candidate& candidate, std::size_t index, std::span<const Observation> observations);
@@ -156,9 +156,10 @@ class PixelSlam final : public Filter {
   std::vector<Innovation> innovations_;
   std::vector<ekf::Sighting> sightings_;
   std::vector<Eigen::Vector2d> nus_;
-  std::vector<std::size_t> seen_;       // the observations of the block
-  std::vector<std::size_t> used_;       // those that are in the update
-  std::vector<ekf::Sighting> refined_;  // linearised where the update leads
+  std::vector<std::size_t> seen_;        // the observations of the block
+  std::vector<ekf::PoseSighting> told_;  // what each of the block told about the pose
+  std::vector<std::size_t> used_;        // those that are in the update
+  std::vector<ekf::Sighting> refined_;   // linearised where the update leads
   std::vector<LandmarkId> removed_;
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict",  "FB3 project", "FB5 Jacobians",
