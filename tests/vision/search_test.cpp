@@ -75,7 +75,7 @@ TEST(Search, FindsWhatThePlainFormulaFindsByBothScores) {
   RandomStream random(2, StreamPurpose::kWorld);
   const GreyImage image = texture(3, 2.0);
   for (const MatchScore match : {MatchScore::kMap, MatchScore::kArticle}) {
-    const SearchOptions options{.max_windows = 160 * 120, .match = match};
+    const SearchOptions options{.probability = 0.99, .max_windows = 160 * 120, .match = match};
     Search search(options);
     for (int i = 0; i < 40; ++i) {
       const Patch patch = *cut_patch(texture(100 + static_cast<std::uint64_t>(i % 5)), 60, 60, 16);

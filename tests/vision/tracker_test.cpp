@@ -211,8 +211,8 @@ TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
     const int tried = static_cast<int>(looks.size()) - number_of(looks, Look::Result::kNotTried);
     for (int k = 0; k < tried; ++k)
       EXPECT_NE(looks[static_cast<std::size_t>(k)].result, Look::Result::kNotTried);
-    // 260 windows each
-    EXPECT_NEAR(tried, std::min(left_us / 17, static_cast<int>(looks.size())), 2) << left_us;
+    // 520 windows each
+    EXPECT_NEAR(tried, std::min(left_us / 28, static_cast<int>(looks.size())), 2) << left_us;
     const bool is_left_out = tried < std::ssize(looks);
     EXPECT_EQ(s.tracker.counts().out_of_budget - before, is_left_out ? 1 : 0);
     before = s.tracker.counts().out_of_budget;

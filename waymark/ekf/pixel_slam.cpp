@@ -109,6 +109,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
                   Candidate{.depths = ekf::DepthParticles(options.depth)}) {
   const auto features = static_cast<std::size_t>(options.capacity);
   expectations_.reserve(features + candidates_.size());
+  innovations_.reserve(features + candidates_.size());
   removed_.reserve(features + candidates_.size());
   sightings_.reserve(ekf::State::kMaxSightings);
   nus_.reserve(ekf::State::kMaxSightings);

@@ -31,7 +31,7 @@ enum class Initialization {
 struct PixelSlamOptions {
   int capacity = 100;                ///< most landmarks in the map
   double sigma_px = 0.5;             ///< of pixels that came without covariance
-  double model_sigma_px = 1.0;       ///< what every pixel is off besides: lens, warp, plane
+  double model_sigma_px = 0.5;       ///< what every pixel is off besides: lens, warp, plane
   double vibration_deg = 0.05;       ///< of the camera's pitch and roll, anew in every picture
   double gate_probability = 0.9999;  ///< part of the true sightings that may pass
   ekf::Initialization init = ekf::Initialization::kDelayed;
