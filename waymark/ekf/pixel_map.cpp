@@ -10,7 +10,7 @@ PixelMap::PixelMap(int capacity, int anchors, Consistency consistency, int threa
       state_(3, capacity + anchors, consistency, threads, error_pairs),
       anchors_(static_cast<std::size_t>(anchors)) {
   features_.reserve(static_cast<std::size_t>(capacity));
-  owners_.reserve(static_cast<std::size_t>(capacity + anchors));
+  owners_.reserve(static_cast<std::size_t>(capacity) + static_cast<std::size_t>(anchors));
 }
 
 std::optional<int> PixelMap::find(LandmarkId id) const {

@@ -197,8 +197,7 @@ std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& fe
 std::optional<PixelSlam::Sight> PixelSlam::sight(int index) const {
   const ekf::State& state = map_.state();
   const ekf::PixelMap::Feature& feature = map_.feature(index);
-  const auto seen =
-      look(feature, state.pose().T_world_robot, [&](int element) { return state.landmark(element); });
+  auto seen = look(feature, state.pose().T_world_robot, [&](int element) { return state.landmark(element); });
   if (!seen || state.consistency() != ekf::Consistency::kFej) return seen;
   auto first = look(feature, state.linearization_pose(),
                     [&](int element) { return state.linearization_landmark(element); });

@@ -106,9 +106,9 @@ class PixelSlam final : public Filter {
   template <class Values>
   [[nodiscard]] std::optional<Sight> look(const ekf::PixelMap::Feature& feature, const Pose2& T_world_robot,
                                           const Values& values) const;
-  [[nodiscard]] std::optional<Sight> sight(int feature) const;
+  [[nodiscard]] std::optional<Sight> sight(int index) const;
   [[nodiscard]] bool is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const;
-  [[nodiscard]] std::optional<Expectation> expect_feature(int feature) const;
+  [[nodiscard]] std::optional<Expectation> expect_feature(int index) const;
   void expect_candidate(const Candidate& candidate);
 
   [[nodiscard]] Baseline baseline(const Candidate& candidate) const;
@@ -133,7 +133,7 @@ class PixelSlam final : public Filter {
   void confirm(std::size_t index, std::span<const Observation> observations);
   void begin(std::size_t index, const Observation& observation);
   [[nodiscard]] ekf::DepthParticles::Spread unknown_depth() const;
-  [[nodiscard]] ekf::DepthParticles::Spread inverse_depth(int feature) const;
+  [[nodiscard]] ekf::DepthParticles::Spread inverse_depth(int index) const;
   [[nodiscard]] bool free_an_anchor();
   void drop(Candidate& candidate);
   void retire();

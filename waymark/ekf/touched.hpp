@@ -49,7 +49,8 @@ struct Touched {
   void set_landmark(int column, std::size_t offset, int count, const JacobianToLandmark& J_landmark) {
     J.middleCols(column, count) = J_landmark.topLeftCorner(J.rows(), count);
     for (int k = 0; k < count; ++k)
-      rows[static_cast<std::size_t>(column + k)] = offset + static_cast<std::size_t>(k);
+      rows[static_cast<std::size_t>(column) + static_cast<std::size_t>(k)] =
+          offset + static_cast<std::size_t>(k);
   }
 
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(J.cols()); }
