@@ -136,7 +136,7 @@ bool Search::has_rival(const Match& best, double acceptable_zmssd, int patch_siz
     const WindowRow& row = ellipse_.rows[k];
     const bool is_near = std::abs(ellipse_.first_row + static_cast<int>(k) - best.v) <= kApart_px;
     for (int u = row.first; u < row.first + row.count; ++u, ++score)
-      if (*score <= acceptable_score && !(is_near && std::abs(u - best.u) <= kApart_px)) return true;
+      if (*score <= acceptable_score && (!is_near || std::abs(u - best.u) > kApart_px)) return true;
   }
   return false;
 }
