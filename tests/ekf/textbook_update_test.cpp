@@ -44,9 +44,9 @@ struct Problem {
   Eigen::VectorXd nu;
 };
 Problem random_problem(RandomStream& random, Eigen::Index D, Eigen::Index n) {
-  const Eigen::MatrixXd root = random_matrix(random, n, n), root_R = random_matrix(random, D, D);
+  const Eigen::MatrixXd root = random_matrix(random, n, n), noise_root = random_matrix(random, D, D);
   return {random_matrix(random, D, n), root * root.transpose(),
-          root_R * root_R.transpose() + Eigen::MatrixXd::Identity(D, D), random_matrix(random, D, 1)};
+          noise_root * noise_root.transpose() + Eigen::MatrixXd::Identity(D, D), random_matrix(random, D, 1)};
 }
 void load(TextbookUpdate& update, const Problem& problem) {
   update.begin(static_cast<std::size_t>(problem.H.rows()), static_cast<std::size_t>(problem.H.cols()));

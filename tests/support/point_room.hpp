@@ -64,7 +64,7 @@ class PointRoom {
     const WheelGeometry& wheels = odometry_.wheels;
     const WheelAngles angles{(ds - 0.5 * turn * wheels.track_m) / wheels.left_radius_m,
                              (ds + 0.5 * turn * wheels.track_m) / wheels.right_radius_m};
-    const Motion said = wheel_motion(angles, odometry_);
+    Motion said = wheel_motion(angles, odometry_);
     const Eigen::Matrix3d L = said.covariance.llt().matrixL();
     const Eigen::Vector3d error = L * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal());
     truth_ = truth_ * Pose2{said.increment.x_m + error[0], said.increment.y_m + error[1],
