@@ -23,12 +23,11 @@ struct RandomTexture {
     for (int v = 0; v < layout.height(lv); ++v) {
       for (int u = 0; u <= layout.width(lu); ++u) {
         const auto at = [&](int row) {
-          return grey[static_cast<std::size_t>(row % layout.height(lv) * layout.width(lu) +
-                                               u % layout.width(lu))];
+          const int texel = row % layout.height(lv) * layout.width(lu) + u % layout.width(lu);
+          return grey[static_cast<std::size_t>(texel)];
         };
-        texels[static_cast<std::size_t>((layout.first_row(lv) + v) * layout.pitch() +
-                                        layout.first_column(lu) + u)] =
-            static_cast<std::uint16_t>(at(v) | at(v + 1) << 8);
+        const int texel = (layout.first_row(lv) + v) * layout.pitch() + layout.first_column(lu) + u;
+        texels[static_cast<std::size_t>(texel)] = static_cast<std::uint16_t>(at(v) | at(v + 1) << 8);
       }
     }
   }

@@ -16,7 +16,7 @@ Grey grey_of(const Canvas& canvas) {
   double sum = 0.0, squares = 0.0;
   for (int v = 0; v < canvas.height(); ++v)
     for (int u = 0; u < canvas.width(); ++u) {
-      const double grey = static_cast<double>(canvas.at(u, v));
+      const double grey = canvas.at(u, v);
       sum += grey;
       squares += grey * grey;
     }

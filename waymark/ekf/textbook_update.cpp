@@ -57,14 +57,14 @@ bool TextbookUpdate::solve() {
   multiply(H, PHt_, S_);
   for (std::size_t i = 0; i < S_.rows(); ++i)
     for (std::size_t j = 0; j < S_.rows(); ++j) S_(i, j) += R(i, j);
-  if (!invert_S()) return false;
+  if (!invert_innovation_covariance()) return false;
   multiply(PHt_, S_inverse_, K_);
   multiply(K_, nu, dx);
   return true;
 }
 
 /// By Gauss and Jordan; the pivots of a positive definite matrix are positive without a search for them.
-bool TextbookUpdate::invert_S() {
+bool TextbookUpdate::invert_innovation_covariance() {
   const std::size_t D = S_.rows();
   S_inverse_.reset(D, D);
   for (std::size_t i = 0; i < D; ++i) S_inverse_(i, i) = 1.0;

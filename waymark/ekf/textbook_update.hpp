@@ -54,7 +54,7 @@ class TextbookUpdate {
   DenseMatrix dx;  ///< n x 1
 
  private:
-  [[nodiscard]] bool invert_S();
+  [[nodiscard]] bool invert_innovation_covariance();
 
   DenseMatrix PHt_;        // n x D
   DenseMatrix S_;          // D x D
