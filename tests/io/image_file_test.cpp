@@ -100,10 +100,27 @@ TEST(ImageFile, ColourBecomesTheWeightedMean) {
   EXPECT_EQ((*image)(2, 0), 29);   // 0.114 * 255
 }
 
+TEST(ImageFile, PgmGivesBackThePixels) {
+  const std::string pixels("\0\n#\xff 1", 6);
+  const auto image = decode_image("P5 # grey\n3\n2\t255\n" + pixels, "a.pgm", ImageSize{3, 2});
+  ASSERT_TRUE(image.ok()) << error_of(image);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(image->data()[i], static_cast<std::uint8_t>(pixels[std::size_t(i)]));
+}
+
+TEST(ImageFile, DamagedPgmIsAnError) {
+  EXPECT_THAT(error_of(decode_image("P5", "a")), HasSubstr("a: damaged PGM file: no width"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")), HasSubstr("no width"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("grey up to 65535"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("breaks off"));
+  EXPECT_THAT(error_of(decode_image("P5 -3 2 255\n", "a")), HasSubstr("each side must have"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n123456", "a", ImageSize{2, 3})),
+              HasSubstr("expected 2 x 3"));
+}
+
 TEST(ImageFile, WhatIsNoImageIsAnErrorThatSaysSo) {
   const TempFolder folder;
   EXPECT_THAT(error_of(read_image(folder.write("a.png", "hello"))),
-              AllOf(HasSubstr("a.png"), HasSubstr("expected a PNG or JPEG")));
+              AllOf(HasSubstr("a.png"), HasSubstr("expected a PNG, JPEG or PGM")));
   EXPECT_THAT(error_of(read_image(folder.write("b.png", ""))), HasSubstr("is empty"));
   EXPECT_THAT(error_of(read_image(folder.path() / "none.png")), HasSubstr("No such file"));
 }

@@ -1,5 +1,7 @@
 #include "waymark/io/image_file.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <csetjmp>
 #include <cstdio>
 #include <vector>
@@ -137,13 +139,42 @@ Result<GreyImage> decode_jpeg(std::string_view bytes, const std::string& name,
   return image;
 }
 
+/// A number of the header of a PGM file, behind blanks and comments; the file then goes on behind it.
+std::optional<int> take_pgm_number(std::string_view& bytes) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  while (!bytes.empty() && (bytes.front() == '#' || kBlanks.find(bytes.front()) != std::string_view::npos))
+    bytes.remove_prefix(bytes.front() == '#' ? std::min(bytes.find('\n'), bytes.size()) : 1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(bytes.data(), bytes.data() + bytes.size(), number);
+  if (error != std::errc{}) return std::nullopt;
+  bytes.remove_prefix(static_cast<std::size_t>(end - bytes.data()));
+  return number;
+}
+
+Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& name,
+                             std::optional<ImageSize> expected) {
+  bytes.remove_prefix(2);
+  const auto width_px = take_pgm_number(bytes);
+  const auto height_px = take_pgm_number(bytes);
+  const auto white = take_pgm_number(bytes);
+  if (!width_px || !height_px || !white) return damaged(name, "PGM", "no width, height and largest grey");
+  if (*white != 255) return damaged(name, "PGM", fmt::format("grey up to {}; expected 255", *white));
+  if (auto fits = check_size({*width_px, *height_px}, name, expected); !fits) return fits.error();
+  GreyImage image(*width_px, *height_px);
+  const auto pixels = static_cast<std::size_t>(*width_px) * static_cast<std::size_t>(*height_px);
+  if (bytes.size() < pixels + 1) return damaged(name, "PGM", "it breaks off");
+  std::copy_n(bytes.data() + 1, pixels, image.data());
+  return image;
+}
+
 }  // namespace
 
 Result<GreyImage> decode_image(std::string_view bytes, const std::string& name,
                                std::optional<ImageSize> expected) {
   if (bytes.starts_with("\x89PNG")) return decode_png(bytes, name, expected);
   if (bytes.starts_with("\xFF\xD8")) return decode_jpeg(bytes, name, expected);
-  return Error{fmt::format("{}: {}; expected a PNG or JPEG image", name,
+  if (bytes.starts_with("P5")) return decode_pgm(bytes, name, expected);
+  return Error{fmt::format("{}: {}; expected a PNG, JPEG or PGM image", name,
                            bytes.empty() ? "is empty" : "is no image that can be read")};
 }
 

@@ -20,8 +20,9 @@ struct ImageSize {
 /// Larger ones are taken for damage.
 inline constexpr int kMaxImageSide_px = 16384;
 
-/// A PNG or JPEG file, told by its first bytes, as grey = 0.299 R + 0.587 G + 0.114 B. Transparent parts lie
-/// on black. Damaged and cut-off files, and those of another size than `expected`, are errors.
+/// A PNG, JPEG or PGM file (binary, 8 bits), told by its first bytes, as grey = 0.299 R + 0.587 G + 0.114 B.
+/// Transparent parts lie on black. Damaged and cut-off files, and those of another size than `expected`, are
+/// errors.
 [[nodiscard]] Result<GreyImage> read_image(const std::filesystem::path& path,
                                            std::optional<ImageSize> expected = {});
 /// The same from memory, as camera messages in bags have them; `name` stands for the file in errors.
