@@ -142,13 +142,14 @@ std::vector<std::string> find_oddities(const Request& request, const LogInfo& lo
 }
 
 /// What to run on it, or why nothing can be run.
-std::string advice(const Request& request, const LogInfo& log, const Contents& contents) {
+std::string advice(const Request& request, const Config& config, const LogInfo& log,
+                   const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
   if (!has("wheel angles") && !has("velocity") && !has("odometry poses"))
     return "nothing can be run: there is no odometry (wheels.csv, velocity.csv or odometry.csv)";
   if (!has("observations") && !has("images")) return "only dead reckoning: there are no observations";
-  if (!has("observations") && !log.only_pixels)
-    return "only dead reckoning: there are images, but camera.yaml is missing";
+  if (log.only_pixels && !config.camera_known)
+    return "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like";
   std::string command = "waymark run " + request.input + " -o out";
   if (log.only_pixels)
     command += " --observe pixel";
@@ -206,7 +207,7 @@ Result<void> check_log(const Request& request) {
   const Contents contents = read_contents(source, opened->config.sensor.T_robot_sensor());
   const LogInfo& log = source.info();
   const auto oddities = find_oddities(request, log, contents);
-  const std::string next = advice(request, log, contents);
+  const std::string next = advice(request, opened->config, log, contents);
   (request.verbosity.json ? print_json : print_text)(log, contents, oddities, next);
   if (contents.error) return *contents.error;
   return {};

@@ -78,6 +78,15 @@ TEST_F(ConfigTest, TellsTheValueInForce) {
   EXPECT_EQ(schema_.value("filter.particles"), "12");
 }
 
+TEST_F(ConfigTest, KnowsWhatWasSetBeItToItsDefault) {
+  EXPECT_FALSE(schema_.was_set("filter.particles"));
+  EXPECT_NE(error_of("filter.particles", "many"), "");
+  EXPECT_FALSE(schema_.was_set("filter.particles"));
+  EXPECT_EQ(error_of("filter.particles", schema_.value("filter.particles")), "");
+  EXPECT_TRUE(schema_.was_set("filter.particles"));
+  EXPECT_FALSE(schema_.was_set("no.such.key"));
+}
+
 TEST_F(ConfigTest, KnowsItsKeysInOrder) {
   EXPECT_TRUE(schema_.has("run.colour"));
   EXPECT_FALSE(schema_.has("colour"));

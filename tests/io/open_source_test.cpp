@@ -60,6 +60,15 @@ TEST(OpenSource, RecognisesPlazaAsTextAndTheLabyrinth) {
   EXPECT_EQ((*other)->info().format, "UWB labyrinth");
 }
 
+TEST(OpenSource, RecognisesPlanarMonoSlam) {
+  const TempFolder folder;
+  folder.write("trajectory.dat", "");
+  folder.write("world.dat", "");
+  folder.write("camera.dat", "no camera");
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("camera.dat:1: expected a line"));
+  EXPECT_THAT(open_source(folder.path() / "world.dat").error().message, HasSubstr("give its folder"));
+}
+
 TEST(OpenSource, LogFolderWithoutLogYamlIsStillMeantAsOne) {
   const TempFolder folder;
   folder.write("wheels.csv", "stamp_s,left_rad,right_rad\n");
@@ -99,8 +108,10 @@ TEST(OpenSource, InputKeysAreBoundToTheOptions) {
   EXPECT_TRUE(schema.set("input.robot", "3", "test").ok());
   EXPECT_TRUE(schema.set("input.fix_known_errors", "false", "test").ok());
   EXPECT_TRUE(schema.set("input.run", "2", "test").ok());
+  EXPECT_TRUE(schema.set("input.pixel_noise_px", "0.5", "test").ok());
   EXPECT_EQ(options.robot, 3);
   EXPECT_EQ(options.run, 2);
+  EXPECT_EQ(options.pixel_noise_px, 0.5);
   EXPECT_FALSE(options.fix_known_errors);
   EXPECT_FALSE(schema.set("input.robot", "0", "test").ok());
 }

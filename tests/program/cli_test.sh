@@ -107,10 +107,47 @@ grep -q 'images skipped: 1, the first because' out.txt || fail 'a damaged pictur
 spoil && rm spoilt/camera.yaml
 does check spoilt
 grep -q 'camera.yaml is missing' out.txt || fail 'check does not say that the camera is unknown'
+refuses 2 'into the log as camera.yaml, or set camera.width_px' run spoilt -o o
+refuses 2 'into the log as camera.yaml, or set camera.width_px' run spoilt -o o --observe pixel
+camera=(--set camera.width_px=320 --set camera.height_px=240 --set camera.fu_px=277 --set camera.fv_px=277)
+does run spoilt -o o "${camera[@]}"
+refuses 2 'no picture' run spoilt -o o "${camera[@]}" --set camera.width_px=640
+pgm() { printf 'P5\n%s %s\n255\n' "$1" "$2" && head -c $(($1 * $2)) /dev/zero | tr '\0' "$3"; } # WIDTH HEIGHT GREY
+spoil && pgm 320 240 '\0' >spoilt/images/000020.png && pgm 320 240 '\377' >spoilt/images/000021.png
+pgm 160 120 '\0' >spoilt/images/000030.png && cp spoilt/images/000040.png spoilt/images/000041.png
+does run spoilt -o o
+for note in '2 pictures show nothing' 'has 160 x 120 pixels, expected 320 x 240' '1 pictures skipped: the stamp or every pixel'; do
+  grep -q "$note" out.txt || fail "the notes lack: $note"
+done
+spoil && sed -i '20{h;d};22G' spoilt/images.csv
+refuses 2 'images.csv:22' run spoilt -o o
 spoil && rm spoilt/images/*.png
 refuses 2 'no picture' run spoilt -o o
 does run room -o o --set tracker.frame_budget_ms=0.3
 grep -q 'for want of time' out.txt || fail 'a budget that is too small is not named'
+
+# Given pixels: the camera is in the folder too, and so is everything that can be wrong.
+mono() { # a log of three steps, made anew
+  rm -rf mono && mkdir mono
+  printf 'camera matrix:\n180 0 320\n0 180 240\n0 0 1\ncam_transform:\n0 0 1 0.2\n-1 0 0 0\n0 -1 0 0\n0 0 0 1\nz_near: 0\nz_far: 5\nwidth: 640\nheight: 480\n' >mono/camera.dat
+  printf '1 3 0.5 0.5\n2 4 -0.5 0.2\n' >mono/world.dat
+  for i in 0 1 2; do
+    printf '%s 0.%s 0 0 0.%s 0 0\n' "$i" "$i" "$i" >>mono/trajectory.dat
+    printf 'seq: %s\ngt_pose: 0 0 0\nodom_pose: 0 0 0\npoint 0 1 287 208 \npoint 1 2 344 230 \n' "$i" >mono/meas-0000$i.dat
+  done
+}
+mono && does run mono -o o
+grep -q 'every point got noise of 1 px' out.txt || fail 'added noise is not named'
+does check mono
+grep -q 'planar mono SLAM' out.txt || fail 'planar-mono-slam is not recognised'
+mono && rm mono/meas-00001.dat
+refuses 2 'trajectory.dat:2: meas-00001.dat of this step is missing' run mono -o o
+mono && printf 'point 2 3 10' >>mono/meas-00002.dat
+refuses 2 'meas-00002.dat:6: expected point INDEX WORLD_ID COL ROW' run mono -o o
+mono && sed -i 's/344/nan/' mono/meas-00001.dat
+refuses 2 "meas-00001.dat:5: 'nan'" run mono -o o
+mono && head -c 500 /dev/urandom >mono/camera.dat
+refuses 2 'camera.dat:' run mono -o o
 
 # An observation mode that the log cannot give.
 cp -r log bearings && cut -d, -f1,2,4 log/observations.csv >bearings/observations.csv

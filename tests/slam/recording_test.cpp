@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "waymark/core/event_list.hpp"
 #include "waymark/slam/make_filter.hpp"
+
+#include "pictures.hpp"
 
 namespace waymark {
 namespace {
@@ -147,6 +150,95 @@ TEST(Recording, PixelsThatALogDoesNotHaveEndTheRun) {
   ASSERT_TRUE(run.ok());
   ASSERT_TRUE(run->error.has_value());
   EXPECT_NE(run->error->message.find("observe"), std::string::npos);
+}
+
+/// A log of one event by a camera that nobody knows, or else is set.
+std::optional<Error> error_of(EventContent content, const std::vector<std::string>& settings) {
+  Config config;
+  config.observe = Observe::kPixel;
+  Schema schema = describe(config);
+  for (const std::string& setting : settings) EXPECT_TRUE(schema.set_assignment(setting, "test").ok());
+  config.camera_known = schema.was_set("camera.fu_px");
+  EventList log({.name = "log", .format = "made"}, {{stamp_from_seconds(1.0), std::move(content)}});
+  auto run = record(log, config);
+  EXPECT_TRUE(run.ok());
+  return run->error;
+}
+
+TEST(Recording, PicturesAndPixelsOfACameraThatNobodyKnowsEndTheRunAndSayWhatToDo) {
+  const Observations pixels{{LandmarkId{LandmarkId::Family::kMarker, 1}, Pixel{100.0, 100.0}, std::nullopt}};
+  for (const EventContent& content :
+       {EventContent(test::taken(0.0, test::noise_picture(1)).content), EventContent(pixels)}) {
+    const auto error = error_of(content, {});
+    ASSERT_TRUE(error.has_value());
+    EXPECT_NE(error->message.find("camera.yaml, or set camera.width_px"), std::string::npos)
+        << error->message;
+    EXPECT_EQ(error->kind, Error::Kind::kBadInput);
+    EXPECT_FALSE(error_of(content, {"camera.fu_px=277"}).has_value());
+  }
+}
+
+/// Events as they are given, also out of order.
+class Given final : public Source {
+ public:
+  Given(LogInfo info, std::vector<Event> events) : info_(std::move(info)), events_(std::move(events)) {}
+  [[nodiscard]] const LogInfo& info() const override { return info_; }
+  [[nodiscard]] Result<std::optional<Event>> next() override {
+    return next_ < events_.size() ? std::optional(events_[next_++]) : std::nullopt;
+  }
+
+ private:
+  LogInfo info_;
+  std::vector<Event> events_;
+  std::size_t next_ = 0;
+};
+
+std::shared_ptr<const GreyImage> saturated(GreyImage image) {
+  for (int i = 0; i < image.width_px() * image.height_px(); ++i)
+    image.data()[i] = image.data()[i] > 20 ? 255 : 0;
+  return std::make_shared<const GreyImage>(std::move(image));
+}
+
+/// What becomes of picture `number` of a camera that fails in every way, seven times of ten.
+void damage(int number, Event event, std::vector<Event>& events) {
+  auto& pixels = std::get<Image>(event.content).pixels;
+  const int kind = number > 60 && number <= 180 ? number % 10 : 0;
+  if (kind == 1) pixels = test::plain_picture(0);
+  if (kind == 2) pixels = test::plain_picture(255);
+  if (kind == 3) pixels = saturated(*pixels);
+  if (kind == 4) pixels = test::noise_picture(1, 640, 480);
+  if (kind == 5) pixels = nullptr;
+  if (kind == 6) events.push_back(event);
+  if (kind == 7) event.stamp = event.stamp - duration_from_seconds(2.0);
+  if (kind != 8) events.push_back(std::move(event));
+}
+
+std::vector<Event> damaged_room(Source& room) {
+  std::vector<Event> events;
+  int pictures = 0;
+  for (auto event = room.next(); event && *event && (*event)->stamp <= stamp_from_seconds(6.5);
+       event = room.next()) {
+    if (std::holds_alternative<Image>((*event)->content))
+      damage(++pictures, std::move(**event), events);
+    else
+      events.push_back(std::move(**event));
+  }
+  return events;
+}
+
+TEST(Recording, DamagedPicturesOfEveryKindAreSkippedAndNamed) {
+  auto opened = open_input("sim:room", {});
+  ASSERT_TRUE(opened.ok());
+  Given log(opened->source->info(), damaged_room(*opened->source));
+  const auto run = record(log, opened->config);
+  ASSERT_TRUE(run.ok());
+  EXPECT_FALSE(run->error.has_value());
+  EXPECT_EQ(run->tracker.unusable, 36);
+  EXPECT_EQ(run->counts.misfits, 24);
+  EXPECT_EQ(run->counts.repeats, 12);
+  EXPECT_EQ(run->counts.late, 12);
+  EXPECT_GT(matches_between(*run, 6.0, 6.5), 0);
+  EXPECT_TRUE(run->filter->pose().covariance.allFinite());
 }
 
 TEST(MakeFilter, RefusesAModeThatTheFilterDoesNotHave) {

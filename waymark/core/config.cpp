@@ -210,9 +210,14 @@ std::string Schema::nearest(std::string_view name) const {
                                    [name](const std::string& key) { return edit_distance(key, name); });
 }
 
-Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
+bool Schema::was_set(std::string_view key) const {
   const Key* found = find(key);
-  if (found == nullptr) {
+  return found != nullptr && found->was_set;
+}
+
+Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
+  const auto found = std::ranges::find(keys_, key, &Key::name);
+  if (found == keys_.end()) {
     const std::string guess = nearest(key);
     return Error{fmt::format(
         "{}: unknown key {}{}", where, key,
@@ -220,6 +225,7 @@ Result<void> Schema::set(std::string_view key, std::string_view value, std::stri
   }
   if (!found->set(value))
     return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
+  found->was_set = true;
   return {};
 }
 

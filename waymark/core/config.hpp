@@ -62,6 +62,8 @@ class Schema {
   [[nodiscard]] std::string to_yaml() const;
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+  /// Has anyone set it, be it to its default?
+  [[nodiscard]] bool was_set(std::string_view key) const;
   /// The text of the value in force; the key must exist.
   [[nodiscard]] std::string value(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
@@ -76,6 +78,7 @@ class Schema {
     std::function<std::string()> get;
     std::function<bool(std::string_view)> set;  ///< false: not an allowed value
     std::string default_value;
+    bool was_set = false;
   };
 
   void add(Key key);

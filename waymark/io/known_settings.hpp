@@ -21,5 +21,6 @@ extern const KnownSettings kMrclamSettings;
 extern const KnownSettings kPlazaSettings;
 extern const KnownSettings kLostInTheWoodsSettings;
 extern const KnownSettings kUwbLabyrinthSettings;
+extern const KnownSettings kPlanarMonoSlamSettings;
 
 }  // namespace waymark

@@ -228,9 +228,7 @@ Sighted look_at_sightings(const fs::path& file) {
   return sighted;
 }
 
-bool has_pictures(const fs::path& folder) {
-  return fs::exists(folder / log_format::kImages.file) && fs::exists(folder / log_format::kCameraFile);
-}
+bool has_pictures(const fs::path& folder) { return fs::exists(folder / log_format::kImages.file); }
 
 /// The first picture of the log that there is.
 std::optional<fs::path> first_image(const fs::path& folder) {

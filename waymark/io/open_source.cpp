@@ -10,6 +10,7 @@
 #include "waymark/io/log_folder.hpp"
 #include "waymark/io/lost_in_the_woods.hpp"
 #include "waymark/io/mrclam.hpp"
+#include "waymark/io/planar_mono_slam.hpp"
 #include "waymark/io/plaza.hpp"
 #include "waymark/io/uwb_labyrinth.hpp"
 
@@ -36,13 +37,15 @@ Error not_a_log(const fs::path& folder) {
   return {fmt::format(
       "{} is a directory but no log: expected log.yaml with wheels.csv, velocity.csv, steering.csv or "
       "odometry.csv; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat file of Plaza or "
-      "lost-in-the-woods; or PlazaN_DR.txt with PlazaN_TD.txt; or Indoor_UWB_Input.txt; found {}",
+      "lost-in-the-woods; or PlazaN_DR.txt with PlazaN_TD.txt; or Indoor_UWB_Input.txt; or camera.dat with "
+      "trajectory.dat and "
+      "world.dat; found {}",
       folder.string(), some_content(folder))};
 }
 
 Error not_a_folder(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (is_log_folder(folder) || is_mrclam(folder) || is_uwb_labyrinth(folder) ||
+  if (is_log_folder(folder) || is_mrclam(folder) || is_uwb_labyrinth(folder) || is_planar_mono_slam(folder) ||
       !plaza_text_runs(folder).empty())
     return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
   return {
@@ -84,6 +87,8 @@ Result<std::unique_ptr<Source>> open_folder(const fs::path& folder, const InputO
   if (is_log_folder(folder)) return open_log_folder(folder);
   if (is_mrclam(folder)) return open_mrclam(folder, {options.robot, options.fix_known_errors});
   if (is_uwb_labyrinth(folder)) return open_uwb_labyrinth(folder);
+  if (is_planar_mono_slam(folder))
+    return open_planar_mono_slam(folder, {options.pixel_noise_px, options.seed});
   if (const auto files = mat_files(folder); !files.empty()) {
     const auto file = choose_run(folder, files, options.run);
     return file ? open_mat_file(*file, options) : file.error();
@@ -103,6 +108,10 @@ void describe(Schema& schema, InputOptions& options) {
                  "which recording of a folder that holds several, in the order of their names");
   schema.boolean("input.fix_known_errors", options.fix_known_errors,
                  "put right what is known to be wrong in a published recording");
+  schema.real(
+      "input.pixel_noise_px", options.pixel_noise_px, {0.0, 100.0},
+      "standard deviation of the noise that is added to points recorded without any (planar-mono-slam), "
+      "px");
 }
 
 Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -14,14 +15,16 @@ struct InputOptions {
   int robot = 1;                 ///< of a MRCLAM directory
   int run = 1;                   ///< of a folder with several recordings, in the order of their names
   bool fix_known_errors = true;  ///< put right what is known to be wrong in a published recording
+  double pixel_noise_px = 1.0;   ///< added where points were recorded without noise
+  std::uint64_t seed = 1;        ///< of that noise; no key of its own, but that of the run
 };
 
 /// Keys input.*.
 void describe(Schema& schema, InputOptions& options);
 
 /// Opens a recording of any known format, recognised by what it holds: a Waymark log folder, an MRCLAM
-/// dataset, the UWB labyrinth, a Plaza run or lost-in-the-woods (the .mat file or its folder; Plaza also as
-/// text).
+/// dataset, the UWB labyrinth, planar-mono-slam, a Plaza run or lost-in-the-woods (the .mat file or its
+/// folder; Plaza also as text).
 [[nodiscard]] Result<std::unique_ptr<Source>> open_source(const std::filesystem::path& path,
                                                           const InputOptions& options = {});
 

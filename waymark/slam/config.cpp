@@ -33,6 +33,7 @@ Result<std::unique_ptr<Source>> open(const std::string& input, const UserSetting
     return open_simulation(input.substr(kSimulationPrefix.size()), user);
   auto config = resolve_config(user);
   if (!config) return config.error();
+  config->input.seed = config->seed;
   return open_source(input, config->input);
 }
 
@@ -93,6 +94,7 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   Schema schema = describe(config);
   if (auto done = apply(schema, (*source)->info()); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
+  config.camera_known = schema.was_set("camera.fu_px");
   if (config.observe == Observe::kPixel) *source = std::make_unique<ImageLoader>(std::move(*source));
   return OpenedInput{std::move(*source), config};
 }

@@ -42,6 +42,7 @@ struct Config {
   OdometryOptions odometry;
   LandmarkSensor sensor;
   CameraOptions camera;
+  bool camera_known = true;  ///< no key: false where neither log nor user says what the camera is like
   PipelineOptions pipeline;
   GateOptions gate;
   AssociationOptions association;

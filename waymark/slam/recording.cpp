@@ -70,14 +70,31 @@ std::optional<Error> read_all(Source& source, const TimeSpan& span,
   }
 }
 
-/// Truth goes to the record, the rest to the pipeline; wheels of unknown size end the run.
-Result<void> route(Event event, const OdometryOptions& odometry, Recording& recording, Pipeline& pipeline) {
+bool shows_pixels(const EventContent& content) {
+  const auto* observations = std::get_if<Observations>(&content);
+  return std::holds_alternative<Image>(content) ||
+         (observations != nullptr && std::ranges::any_of(*observations, [](const Observation& each) {
+            return std::holds_alternative<Pixel>(each.value);
+          }));
+}
+
+/// What cannot be understood without knowing what it was measured with.
+Result<void> check_sensor_of(const Event& event, const Config& config) {
+  if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
+  if (config.camera_known || config.observe != Observe::kPixel || !shows_pixels(event.content)) return {};
+  return Error{
+      "camera.fu_px: nobody says what the camera is like: put its camera_info file into the log as "
+      "camera.yaml, or set camera.width_px, camera.height_px, camera.fu_px, camera.fv_px, camera.cu_px and "
+      "camera.cv_px"};
+}
+
+/// Truth goes to the record, the rest to the pipeline; wheels and cameras that nobody knows end the run.
+Result<void> route(Event event, const Config& config, Recording& recording, Pipeline& pipeline) {
   if (const auto* truth = std::get_if<Truth>(&event.content)) {
     recording.truth.emplace_back(event.stamp, *truth);
     return {};
   }
-  if (std::holds_alternative<WheelAngles>(event.content))
-    if (auto known = check(odometry.wheels); !known) return known;
+  if (auto known = check_sensor_of(event, config); !known) return known;
   pipeline.push(std::move(event));
   return {};
 }
@@ -96,7 +113,7 @@ std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe
 
 void finish_pictures(Recording& recording, const Config& config, const CameraFrontEnd& front_end) {
   recording.frame_budget = duration_from_seconds(1e-3 * config.tracker.budget.per_frame_ms);
-  const vision::TrackerCounts& counts = front_end.counts();
+  const vision::TrackerCounts& counts = recording.tracker = front_end.counts();
   if (counts.unusable > 0)
     recording.notes.push_back(
         fmt::format("{} pictures show nothing: black, white or covered", counts.unusable));
@@ -125,7 +142,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
       [&](const Step& step) { keep(recording, step, front_end.get()); }, front_end.get());
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
-    return route(std::move(event), config.odometry, recording, pipeline);
+    return route(std::move(event), config, recording, pipeline);
   });
   pipeline.finish();
   recording.wall = std::chrono::steady_clock::now() - start;

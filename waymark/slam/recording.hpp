@@ -33,6 +33,7 @@ struct Recording {
   FilmStrip film;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
+  vision::TrackerCounts tracker;   ///< of what looks into pictures
   std::vector<std::string> notes;  ///< what was skipped or odd, one line each
   Duration wall{0};
   std::unique_ptr<Filter> filter;  ///< as the last event left it
