@@ -15,9 +15,11 @@
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
 
+#include "figures/budget.hpp"
 #include "figures/compressed.hpp"
 #include "figures/consistency.hpp"
 #include "figures/contact_sheet.hpp"
+#include "figures/desk.hpp"
 #include "figures/forest.hpp"
 #include "figures/observe.hpp"
 
@@ -250,8 +252,10 @@ int main(int argc, char** argv) {
   compressed->callback([&] { status = waymark::compressed(frames, threads); });
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
+  waymark::add_budget(app, status);
   waymark::add_consistency(app, status);
   waymark::add_contact_sheet(app, status);
+  waymark::add_desk(app, status);
   waymark::add_forest(app);
   waymark::add_observe(app);
   CLI11_PARSE(app, argc, argv);

@@ -134,8 +134,8 @@ Result<Settings> read_camera(const fs::path& file) {
     const auto value = read_value(*lines, keys[i]);
     if (!value) return value.error();
     values[i] = *value;
-    if (i > 0 && !(*value > 0.0 && *value < 1e5))
-      return lines->error(fmt::format("{} must be above 0", keys[i]));
+    if (i > 0 && (*value <= 0.0 || *value >= 1e5))
+      return lines->error(fmt::format("{} must be above 0 and below 1e5", keys[i]));
   }
   return settings_of({.width_px = static_cast<int>(values[2]),
                       .height_px = static_cast<int>(values[3]),
@@ -163,7 +163,7 @@ Result<Observation> read_point(const TextLines& lines, std::string_view rest) {
   const auto numbers = read_numbers(lines, rest, 4, "point INDEX WORLD_ID COL ROW");
   if (!numbers) return numbers.error();
   const double id = (*numbers)[1];
-  if (!(id >= 0.0 && id <= 1e9 && id == std::floor(id)))
+  if (id < 0.0 || id > 1e9 || id != std::floor(id))
     return lines.error("WORLD_ID must be a whole number from 0 on");
   const Pixel pixel{(*numbers)[2], (*numbers)[3]};
   return Observation{landmark_id(static_cast<int>(id)), pixel, std::nullopt};
