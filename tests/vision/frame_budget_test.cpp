@@ -25,6 +25,22 @@ TEST(FrameBudget, OfWorkIsUsedUpByWhatIsSpentAndByNothingElse) {
   EXPECT_TRUE(budget.allows(1000.0));
 }
 
+TEST(FrameBudget, RemembersTheFirstThatItRefusedAndWhatIsLeft) {
+  FrameBudget budget(BudgetKind::kWork);
+  budget.start(Duration{1000});
+  budget.spend(600.0);
+  EXPECT_EQ(budget.left(), Duration{400});
+  EXPECT_TRUE(budget.allows(400.0));
+  EXPECT_EQ(budget.refused(), Duration{0});
+  EXPECT_FALSE(budget.allows(500.0));
+  EXPECT_FALSE(budget.allows(800.0));
+  EXPECT_EQ(budget.refused(), Duration{500});
+  budget.spend(600.0);
+  EXPECT_EQ(budget.left(), Duration{0});
+  budget.start(Duration{1000});
+  EXPECT_EQ(budget.refused(), Duration{0});
+}
+
 TEST(FrameBudget, OfTheClockIsUsedUpByTime) {
   FrameBudget budget(BudgetKind::kClock);
   budget.start(std::chrono::milliseconds(20));

@@ -219,6 +219,15 @@ TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
   }
 }
 
+TEST(Tracker, SavesUpForASearchThatIsTooDearForOnePicture) {
+  TrackerOptions options;
+  options.budget.per_frame_ms = 0.04;  // a quarter of it is 10 us of work, a cell of a picture takes some 30
+  Started s(11, options);
+  EXPECT_GT(s.points.expect(Wall::pose(0), kS, s.wall.random).size(), 0U);
+  EXPECT_LE(s.points.expect(Wall::pose(0), kS, s.wall.random).size(), 4U);
+  EXPECT_GT(s.tracker.counts().out_of_budget, 0);
+}
+
 TEST(Tracker, LooksForNoMoreThanItMay) {
   Started s(9, {.most_observed = 5});
   const auto found = s.see(0);

@@ -1,11 +1,16 @@
 #include "waymark/vision/frame_budget.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "waymark/core/function_blocks.hpp"
 
 namespace waymark::vision {
 namespace {
 
 double nanoseconds(Duration d) { return static_cast<double>(d.count()); }
+
+Duration duration_from_nanoseconds(double ns) { return Duration(std::llround(ns)); }
 
 }  // namespace
 
@@ -23,16 +28,26 @@ WorkCosts work_costs(kernels::Instructions instructions) {
 
 void FrameBudget::start(Duration most) {
   left_ns_ = nanoseconds(most);
+  refused_ns_ = 0.0;
   if (kind_ == BudgetKind::kClock) last_ = thread_cpu_time();
 }
 
 bool FrameBudget::allows(double cost_ns) {
-  if (kind_ == BudgetKind::kWork) return cost_ns <= left_ns_;
-  const Duration now = thread_cpu_time();
-  left_ns_ -= nanoseconds(now - last_);
-  last_ = now;
-  return cost_ns * ns_per_cost_ <= left_ns_;
+  double needed_ns = cost_ns;
+  if (kind_ == BudgetKind::kClock) {
+    const Duration now = thread_cpu_time();
+    left_ns_ -= nanoseconds(now - last_);
+    last_ = now;
+    needed_ns *= ns_per_cost_;
+  }
+  const bool allowed = needed_ns <= left_ns_;
+  if (!allowed && refused_ns_ == 0.0) refused_ns_ = needed_ns;
+  return allowed;
 }
+
+Duration FrameBudget::left() const { return duration_from_nanoseconds(std::max(left_ns_, 0.0)); }
+
+Duration FrameBudget::refused() const { return duration_from_nanoseconds(refused_ns_); }
 
 void FrameBudget::spend(double cost_ns) {
   if (kind_ == BudgetKind::kWork) {

@@ -43,9 +43,14 @@ class FrameBudget {
   /// It was done, and cost this in the end.
   void spend(double cost_ns);
 
+  [[nodiscard]] Duration left() const;
+  /// What was first refused since start() would take; zero: nothing was.
+  [[nodiscard]] Duration refused() const;
+
  private:
   BudgetKind kind_;
   double left_ns_ = 0.0;
+  double refused_ns_ = 0.0;
   Duration last_{0};
   double ns_per_cost_ = 1.0;
 };

@@ -88,8 +88,8 @@ void Tracker::begin(const ImageView& image, const Pose2& T_world_robot,
   is_usable_ = is_usable(image, camera_.width_px(), camera_.height_px(), grey_sigma_);
   ++counts_.pictures;
   counts_.unusable += !is_usable_;
-  landmarks_.budget.start(duration_from_seconds(1e-3 * options_.budget.per_frame_ms) - budget_behind() -
-                          others_);
+  behind_ = budget_behind();
+  landmarks_.budget.start(duration_from_seconds(1e-3 * options_.budget.per_frame_ms) - behind_ - others_);
   if (is_usable_) background_.start<&Tracker::look_behind>(this);
 }
 
@@ -112,19 +112,36 @@ void Tracker::copy(std::span<const Expectation> expectations) {
   }
 }
 
-Duration Tracker::budget_behind() const {
+Duration Tracker::share_behind() const {
   return duration_from_seconds(1e-3 * kShareBehind * options_.budget.per_frame_ms);
+}
+
+/// Its share of each picture, and what was saved once that is enough for what was too dear before: then
+/// landmarks have less.
+Duration Tracker::budget_behind() const {
+  const Duration all = share_behind() + saved_;
+  return all >= candidates_.budget.refused() ? all : share_behind();
+}
+
+/// A single search may be too dear for the share of one picture: then what that leaves is kept for later
+/// ones, up to a whole picture's budget.
+void Tracker::save_up() {
+  const Duration whole = duration_from_seconds(1e-3 * options_.budget.per_frame_ms);
+  const Duration kept = candidates_.budget.left() + (share_behind() + saved_ - behind_);
+  saved_ = candidates_.budget.refused() > Duration{0} ? std::min(kept, whole - share_behind()) : Duration{0};
 }
 
 /// What the other thread does.
 void Tracker::look_behind() {
   const Duration start = thread_cpu_time();
-  candidates_.budget.start(budget_behind());
+  candidates_.budget.start(behind_);
   look_for(true, options_.new_corners.most_candidates, candidates_);
   const Duration between = thread_cpu_time();
   corners_ = new_corners_.find(image_, features_, candidates_under_way_, candidates_.budget);
   candidates_took_ = between - start;
   corners_took_ = thread_cpu_time() - between;
+  candidates_.is_out_of_budget |= candidates_.budget.refused() > Duration{0};
+  save_up();
 }
 
 Sightings Tracker::match_first() { return match(options_.first_observed); }

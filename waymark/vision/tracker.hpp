@@ -101,11 +101,13 @@ class Tracker {
 
   void copy(std::span<const Expectation> expectations);
   void look_behind();
+  void save_up();
   [[nodiscard]] Sightings match(int most);
   void look_for(bool candidates, int most, Seeker& seeker);
   void gather(bool candidates, Seeker& seeker);
   void add_new_corners();
   [[nodiscard]] Duration budget_behind() const;
+  [[nodiscard]] Duration share_behind() const;
 
   TrackerOptions options_;
   double grey_sigma_;
@@ -114,6 +116,8 @@ class Tracker {
   NewCorners new_corners_;
   Seeker landmarks_, candidates_;
   Duration others_{0};
+  Duration behind_{0};  ///< budget of the other thread for this picture
+  Duration saved_{0};   ///< of those before, for what was too dear for one of them
 
   // Of the present picture.
   ImageView image_;
