@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -11,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "waymark/core/chi2.hpp"
 #include "waymark/core/parallel.hpp"
 #include "waymark/report/results.hpp"
 
@@ -22,6 +20,8 @@
 #include "figures/desk.hpp"
 #include "figures/forest.hpp"
 #include "figures/observe.hpp"
+#include "figures/over_runs.hpp"
+#include "figures/room.hpp"
 
 namespace waymark {
 namespace {
@@ -145,7 +145,7 @@ int loop_closure(const std::string& folder, std::vector<std::string> settings) {
 struct StudyRun {
   double ekf_rmse_m = 0.0;
   double fastslam_rmse_m = 0.0;
-  std::map<Stamp, double> nees;  ///< of the EKF, by stamp
+  NeesOverTime nees;  ///< of the EKF
   bool ok = false;
 };
 
@@ -166,30 +166,6 @@ StudyRun study_run(int seed, const std::vector<std::string>& extra) {
   return study;
 }
 
-/// The part of the stamps at which the mean NEES over the runs lies inside its 99 % band; stamps that some
-/// run lacks (a covariance that is still singular) do not count.
-double part_inside(const std::vector<StudyRun>& runs, double from_s, double to_s) {
-  const auto n = static_cast<double>(runs.size());
-  const double low = chi2_quantile(0.005, 3.0 * n) / n;
-  const double high = chi2_quantile(0.995, 3.0 * n) / n;
-  int inside = 0;
-  int all = 0;
-  for (const auto& [stamp, unused] : runs.front().nees) {
-    if (to_seconds(stamp) < from_s || to_seconds(stamp) >= to_s) continue;
-    double sum = 0.0;
-    bool everywhere = true;
-    for (const auto& one : runs) {
-      const auto found = one.nees.find(stamp);
-      everywhere = everywhere && found != one.nees.end();
-      if (everywhere) sum += found->second;
-    }
-    if (!everywhere) continue;
-    ++all;
-    inside += sum / n >= low && sum / n <= high ? 1 : 0;
-  }
-  return all > 0 ? static_cast<double>(inside) / all : NAN;
-}
-
 int study_world(int seeds, const std::vector<std::string>& extra) {
   std::vector<StudyRun> runs(static_cast<std::size_t>(seeds));
   ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
@@ -197,15 +173,17 @@ int study_world(int seeds, const std::vector<std::string>& extra) {
   if (!std::ranges::all_of(runs, &StudyRun::ok)) return 1;
   std::vector<double> ekf;
   std::vector<double> fastslam;
+  std::vector<NeesOverTime> nees;
   for (const auto& one : runs) {
+    nees.push_back(one.nees);
     ekf.push_back(one.ekf_rmse_m);
     fastslam.push_back(one.fastslam_rmse_m);
   }
   const double end_s = to_seconds(runs.front().nees.rbegin()->first);
   fmt::print("world study, {} seeds\n", seeds);
   fmt::print("EKF mean pose NEES inside its 99 % band: {:.1f} % of the first lap, {:.1f} % of the second\n",
-             100.0 * part_inside(runs, 0.0, 0.5 * end_s),
-             100.0 * part_inside(runs, 0.5 * end_s, 2.0 * end_s));
+             100.0 * part_inside(nees, 0.0, 0.5 * end_s),
+             100.0 * part_inside(nees, 0.5 * end_s, 2.0 * end_s));
   fmt::print(
       "position RMSE, mean and median over the seeds: EKF {:.3f} {:.3f} m, FastSLAM (150 particles) {:.3f} "
       "{:.3f} m, ratio {:.2f} {:.2f}\n",
@@ -258,6 +236,7 @@ int main(int argc, char** argv) {
   waymark::add_desk(app, status);
   waymark::add_forest(app);
   waymark::add_observe(app);
+  waymark::add_room(app, status);
   CLI11_PARSE(app, argc, argv);
   return status;
 }

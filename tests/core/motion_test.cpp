@@ -1,5 +1,7 @@
 #include "waymark/core/motion.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
@@ -97,6 +99,19 @@ TEST(IsStill, OnlyWithoutMotionAndWithoutNoise) {
   EXPECT_TRUE(is_still(Motion{}));
   EXPECT_FALSE(is_still({{1e-12, 0.0, 0.0}, Eigen::Matrix3d::Zero()}));
   EXPECT_FALSE(is_still({Pose2{}, 1e-12 * Eigen::Matrix3d::Identity()}));
+}
+
+TEST(IsFinite, AsksForEveryNumber) {
+  EXPECT_TRUE(is_finite(Motion{Pose2{1.0, 2.0, 3.0}, Eigen::Matrix3d::Identity()}));
+  for (int i = 0; i < 4; ++i) {
+    Motion motion;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    if (i == 0) motion.increment.x_m = nan;
+    if (i == 1) motion.increment.y_m = std::numeric_limits<double>::infinity();
+    if (i == 2) motion.increment.theta_rad = nan;
+    if (i == 3) motion.covariance(2, 1) = nan;
+    EXPECT_FALSE(is_finite(motion)) << i;
+  }
 }
 
 }  // namespace

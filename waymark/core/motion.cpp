@@ -4,6 +4,12 @@
 
 namespace waymark {
 
+bool is_finite(const Motion& motion) {
+  const Pose2& T = motion.increment;
+  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
+         motion.covariance.allFinite();
+}
+
 double way_m(const Motion& motion) {
   constexpr double kMetresPerRadian = 0.3;
   return motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);

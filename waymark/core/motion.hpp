@@ -19,6 +19,9 @@ struct Motion {
   return motion.increment == Pose2{} && motion.covariance.isZero(0.0);
 }
 
+/// Neither its increment nor its covariance holds a NaN or an infinity.
+[[nodiscard]] bool is_finite(const Motion& motion);
+
 /// How far a motion takes the robot's view along, m: its length, and its turn as 0.3 m per radian. A turn on
 /// the spot shows a landmark from no new place, but at a new bearing.
 [[nodiscard]] double way_m(const Motion& motion);

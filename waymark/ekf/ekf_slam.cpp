@@ -33,12 +33,6 @@ Outcome admissible(const Observation& observation) {
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
 }
 
-bool is_finite(const Motion& motion) {
-  const Pose2& T = motion.increment;
-  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
-         motion.covariance.allFinite();
-}
-
 }  // namespace
 
 void describe(Schema& schema, EkfOptions& options) {

@@ -38,8 +38,8 @@ Pose2 PixelMap::anchor_pose(int anchor) const {
   return {pose[0], pose[1], pose[2]};
 }
 
-void PixelMap::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
-                       const Eigen::Matrix3d& covariance, const ErrorTerms& errors) {
+int PixelMap::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
+                      const Eigen::Matrix3d& covariance, const ErrorTerms& errors) {
   hold(anchor);
   owners_.push_back({false, static_cast<int>(features_.size())});
   Feature added;
@@ -47,6 +47,7 @@ void PixelMap::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
   added.anchor = anchor;
   added.element = state_.add_relative(ray, covariance, errors);
   features_.push_back(added);
+  return static_cast<int>(features_.size()) - 1;
 }
 
 void PixelMap::make_point(int index, const Camera& camera) {

@@ -22,6 +22,7 @@ class PixelMap {
     int anchor = -1;  ///< of a ray; below 0: a point
     int observations = 0;
     Eigen::Vector3d first_view_m = Eigen::Vector3d::Zero();  ///< from a point to the camera that first saw it
+    Eigen::Vector3d seen_from_m = Eigen::Vector3d::Zero();   ///< where the camera last was that looked at it
 
     [[nodiscard]] bool is_point() const { return anchor < 0; }
   };
@@ -50,9 +51,10 @@ class PixelMap {
     return anchors_[static_cast<std::size_t>(anchor)].element;
   }
 
-  /// Appends a ray (x, y, rho) with its covariance; it holds its anchor. The map must not be full.
-  void add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
-               const ErrorTerms& errors = {});
+  /// Appends a ray (x, y, rho) with its covariance and returns its index; it holds its anchor. The map must
+  /// not be full.
+  int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
+              const ErrorTerms& errors = {});
   /// Turns a ray into the point that it says.
   void make_point(int index, const Camera& camera);
   /// The last feature takes the place of a removed one.

@@ -28,13 +28,13 @@ constexpr double kAgreement = 0.99;
 /// A ray that has to be settled before that may be kept as a point if sigma of its depth over the depth is
 /// less.
 constexpr double kFairlySure = 0.1;
-// A patch is recognised under this turn of the view and between these ratios of distances.
-const double kLeastCosine = std::cos(45.0 / 180.0 * kPi);
 /// Standard deviation of an innovation from which on one sighting alone convinces nobody, px.
 constexpr double kWide_px = 15.0;
 /// From where on a landmark comes back that leads the state far, px, and how many must.
 constexpr double kFar_px = 6.0;
 constexpr int kWitnesses = 3;
+// A patch is recognised under this turn of the view and between these ratios of distances.
+const double kLeastCosine = std::cos(to_radians(45.0));
 constexpr double kNearest = 0.4, kFarthest = 2.5;
 // What the innovations after an update may differ from what was linearly expected of them, squared and in
 // units of the noise: a fifth of its standard deviation.
@@ -43,23 +43,23 @@ constexpr int kMostIterations = 5;
 /// What particles claim of a depth is made so many times less sure where the state learns it anew.
 constexpr double kWidening = 5.0;
 
-bool is_finite(const Motion& motion) {
-  const Pose2& T = motion.increment;
-  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
-         motion.covariance.allFinite();
-}
-
-const Pixel* usable_pixel(const Observation& observation) {
+bool is_usable(const Observation& observation) {
   const auto* z = std::get_if<Pixel>(&observation.value);
-  const bool usable = z != nullptr && std::isfinite(z->u_px) && std::isfinite(z->v_px) &&
-                      (!observation.covariance || observation.covariance->allFinite());
-  return usable ? z : nullptr;
+  return z != nullptr && std::isfinite(z->u_px) && std::isfinite(z->v_px) &&
+         (!observation.covariance || observation.covariance->allFinite());
 }
-
-Eigen::Vector2d to_vector(const Pixel& pixel) { return {pixel.u_px, pixel.v_px}; }
 
 Eigen::Vector2d pixel_of(const Observation& observation) {
-  return to_vector(std::get<Pixel>(observation.value));
+  const auto& pixel = std::get<Pixel>(observation.value);
+  return {pixel.u_px, pixel.v_px};
+}
+
+/// Of a ray's (x, y, rho), where nothing else is known that they have in common.
+Eigen::Matrix3d ray_covariance(const Eigen::Matrix2d& xy_covariance, double rho_sigma) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.topLeftCorner<2, 2>() = xy_covariance;
+  covariance(2, 2) = rho_sigma * rho_sigma;
+  return covariance;
 }
 
 }  // namespace
@@ -69,7 +69,11 @@ void describe(Schema& schema, PixelSlamOptions& options) {
   schema.real("pixel.sigma_px", options.sigma_px, {1e-3, 100.0},
               "standard deviation of pixels that came without covariance, px");
   schema.real("pixel.model_sigma_px", options.model_sigma_px, {0.0, 100.0},
-              "what every pixel is off besides: lens, warp, patches that are not flat, px");
+              "what every pixel is off besides, anew in every picture, px");
+  schema.real(
+      "pixel.wander_px", options.wander_px, {0.0, 100.0},
+      "standard deviation of how far the place of a patch wanders on its surface while the view of it "
+      "turns by 1 deg, px; grows with the root of the angle");
   schema.real("pixel.vibration_deg", options.vibration_deg, {0.0, 10.0},
               "standard deviation of the camera's pitch and roll, anew in every picture, deg");
   schema.real("pixel.gate_probability", options.gate_probability, {0.5, 0.9999999},
@@ -88,10 +92,10 @@ void describe(Schema& schema, PixelSlamOptions& options) {
                  "points whose depth is being found out at once");
   schema.integer("pixel.least_pictures", options.least_pictures, {1, 100000},
                  "sightings before a candidate is accepted: what moves by itself shows within these");
-  schema.integer("pixel.most_pictures", options.most_pictures, {1, 100000},
-                 "sightings after which a candidate is accepted though its depth is not known, and half the "
-                 "pictures after "
-                 "which it is given up");
+  schema.integer(
+      "pixel.most_pictures", options.most_pictures, {1, 100000},
+      "sightings after which a candidate is accepted though its depth is not known; after twice as "
+      "many pictures it is given up");
   schema.real("pixel.depth_ratio", options.depth_ratio, {1e-3, 1.0},
               "sigma of the depth over the depth below which a candidate is accepted");
 }
@@ -143,31 +147,32 @@ void PixelSlam::begin_picture() {
   retire();
 }
 
-/// What a vibration of the camera about its x and its z axis does to the pixel of a point.
-ekf::ErrorTerms PixelSlam::vibration(const Eigen::Vector3d& p_camera, double sign) const {
+/// What a vibration of the camera about its x and its z axis does to the pixel of a point, whose Jacobian to
+/// the point is J.
+ekf::ErrorTerms PixelSlam::vibration(const Eigen::Vector3d& p_camera, const PixelJacobian& J) const {
   ekf::ErrorTerms terms;
-  const auto image = camera_.project(p_camera);
-  if (options_.vibration_deg <= 0.0 || !image) return terms;
+  if (options_.vibration_deg <= 0.0) return terms;
   terms[0].pair = 0;
-  const double scale = sign * to_radians(options_.vibration_deg);
-  terms[0].J.topRows<2>() << scale * image->dpixel_dpoint * Eigen::Vector3d::UnitX().cross(p_camera),
-      scale * image->dpixel_dpoint * Eigen::Vector3d::UnitZ().cross(p_camera);
+  const double sigma_rad = to_radians(options_.vibration_deg);
+  terms[0].J.topRows<2>() << sigma_rad * J * Eigen::Vector3d::UnitX().cross(p_camera),
+      sigma_rad * J * Eigen::Vector3d::UnitZ().cross(p_camera);
   return terms;
 }
 
+Eigen::Matrix2d PixelSlam::model_noise() const {
+  return options_.model_sigma_px * options_.model_sigma_px * Eigen::Matrix2d::Identity();
+}
+
 Eigen::Matrix2d PixelSlam::noise(const Observation& observation) const {
-  const double model = options_.model_sigma_px * options_.model_sigma_px;
   const double own = options_.sigma_px * options_.sigma_px;
-  const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
-  return (observation.covariance ? *observation.covariance : (own * identity).eval()) + model * identity;
+  return model_noise() + observation.covariance.value_or(own * Eigen::Matrix2d::Identity());
 }
 
 /// A feature as it should look from a pose, with `values` of what stands in the state; nothing where it
 /// cannot be seen. The innovation is left to the caller.
 template <class Values>
-std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& feature,
-                                                const Pose2& T_world_robot, const Values& values) const {
-  const CameraPose here = camera_.pose(T_world_robot);
+std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& feature, const CameraPose& here,
+                                                const Values& values) const {
   Sight seen;
   seen.sighting.landmark = feature.element;
   if (feature.is_point()) {
@@ -175,8 +180,8 @@ std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& fe
     if (!h) return std::nullopt;
     seen.sighting.H_pose = h->H_pose;
     seen.sighting.H_landmark = h->H_landmark;
+    seen.sighting.errors = vibration(h->p_camera, h->dpixel_dpoint);
     seen.predicted = h->predicted;
-    seen.p_camera = h->p_camera;
   } else {
     seen.sighting.anchor = map_.anchor_element(feature.anchor);
     const Eigen::Vector3d anchor = values(seen.sighting.anchor);
@@ -186,31 +191,30 @@ std::optional<PixelSlam::Sight> PixelSlam::look(const ekf::PixelMap::Feature& fe
     seen.sighting.H_pose = h->H_pose;
     seen.sighting.H_landmark = h->H_ray;
     seen.sighting.H_anchor = h->H_anchor;
+    seen.sighting.errors = vibration(h->p_camera, h->dpixel_dpoint);
     seen.predicted = h->predicted;
-    seen.p_camera = h->p_camera;
   }
-  seen.sighting.errors = vibration(seen.p_camera, 1.0);
   return seen;
 }
 
 /// As it should look at the present estimate, Jacobians where the consistency mode wants them.
-std::optional<PixelSlam::Sight> PixelSlam::sight(int index) const {
+std::optional<PixelSlam::Sight> PixelSlam::sight(int index, const CameraPose& here) const {
   const ekf::State& state = map_.state();
   const ekf::PixelMap::Feature& feature = map_.feature(index);
-  auto seen = look(feature, state.pose().T_world_robot, [&](int element) { return state.landmark(element); });
+  auto seen = look(feature, here, [&](int element) { return state.landmark(element); });
   if (!seen || state.consistency() != ekf::Consistency::kFej) return seen;
-  auto first = look(feature, state.linearization_pose(),
+  auto first = look(feature, camera_.pose(state.linearization_pose()),
                     [&](int element) { return state.linearization_landmark(element); });
   if (first) first->predicted = seen->predicted;
   return first;
 }
 
 /// Points are known by how they looked, which holds from about where they were first seen.
-bool PixelSlam::is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const {
-  if (!camera_.sees(sight.predicted, kBorder_px)) return false;
+bool PixelSlam::is_in_view(const ekf::PixelMap::Feature& feature, const CameraPose& here,
+                           const Eigen::Vector2d& pixel) const {
+  if (!camera_.sees(pixel, kBorder_px)) return false;
   if (!feature.is_point()) return true;
-  const Eigen::Vector3d view =
-      camera_.pose(pose().T_world_robot).p_world_camera - map_.state().landmark(feature.element);
+  const Eigen::Vector3d view = here.p_world_camera - map_.state().landmark(feature.element);
   const double ratio = view.norm() / feature.first_view_m.norm();
   return ratio > kNearest && ratio < kFarthest &&
          view.normalized().dot(feature.first_view_m.normalized()) > kLeastCosine;
@@ -220,57 +224,72 @@ std::span<const Expectation> PixelSlam::expect() {
   BlockTimer timer(blocks_);
   begin_picture();
   expectations_.clear();
-  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i)
-    if (const auto expected = expect_feature(i)) expectations_.push_back(*expected);
+  const CameraPose here = camera_pose();
+  for (int i = 0; i < static_cast<int>(map_.features().size()); ++i) expect_feature(i, here);
   for (const Candidate& candidate : candidates_)
     if (candidate.anchor >= 0) expect_candidate(candidate);
   timer.finish(kProject);
   return expectations_;
 }
 
-std::span<const Expectation> PixelSlam::expect_again() {
-  BlockTimer timer(blocks_);
-  std::size_t kept = 0;
-  for (const Expectation& before : expectations_) {
-    const auto feature = before.candidate ? std::nullopt : map_.find(before.id);
-    if (!feature || management_.is_in_scan(*feature)) continue;
-    if (const auto expected = expect_feature(*feature)) expectations_[kept++] = *expected;
-  }
-  expectations_.resize(kept);
-  timer.finish(kProject);
-  return expectations_;
+/// Where a feature is; a ray that leads behind infinity as far away as points may be.
+Eigen::Vector3d PixelSlam::place(const ekf::PixelMap::Feature& feature) const {
+  const Eigen::Vector3d values = map_.state().landmark(feature.element);
+  if (feature.is_point()) return values;
+  const double least_rho = 1.0 / options_.depth.farthest_m;
+  return point_of_ray(camera_.pose(map_.anchor_pose(feature.anchor)),
+                      {values[0], values[1], std::max(values[2], least_rho)})
+      .p_world;
 }
 
-std::optional<Expectation> PixelSlam::expect_feature(int index) const {
-  auto seen = sight(index);
+double PixelSlam::wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
+                               const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d before = from - p_world, now = to - p_world;
+  const double angle_rad = std::atan2(before.cross(now).norm(), before.dot(now));
+  return options_.wander_px * options_.wander_px * to_degrees(angle_rad);
+}
+
+/// A patch is no point. Warped as a plane that faces the camera it fits best a little beside where it was
+/// cut, and the more so the more the view has turned. Pictures from nearly the same place are off by the
+/// same: an error of the landmark, not of the pixel.
+void PixelSlam::let_wander(int index, const CameraPose& here) {
+  ekf::PixelMap::Feature& feature = map_.feature(index);
+  const Eigen::Vector3d p_world = place(feature);
+  const Eigen::Vector3d view = p_world - here.p_world_camera;
+  const double metres_per_px = view.norm() / camera_.options().fu_px;
+  const double variance_m2 =
+      wandered_px2(p_world, feature.seen_from_m, here.p_world_camera) * metres_per_px * metres_per_px;
+  feature.seen_from_m = here.p_world_camera;
+  const double rho = map_.state().landmark(feature.element)[2];
+  const Eigen::Vector3d along = view.normalized();
+  map_.state().loosen(feature.element,
+                      feature.is_point()
+                          ? (variance_m2 * (Eigen::Matrix3d::Identity() - along * along.transpose())).eval()
+                          : ray_covariance(variance_m2 * rho * rho * Eigen::Matrix2d::Identity(), 0.0));
+}
+
+/// Adds it to the expectations if it should be in the picture.
+void PixelSlam::expect_feature(int index, const CameraPose& here) {
+  auto seen = sight(index, here);
   const ekf::PixelMap::Feature& feature = map_.feature(index);
-  if (!seen || !is_in_view(feature, *seen)) return std::nullopt;
-  const double model = options_.model_sigma_px * options_.model_sigma_px;
-  seen->sighting.R = (model + kRounding) * Eigen::Matrix2d::Identity();
+  if (!seen || !is_in_view(feature, here, seen->predicted)) return;
+  let_wander(index, here);
+  seen->sighting.R = model_noise() + kRounding * Eigen::Matrix2d::Identity();
   Expectation expected;
   expected.id = feature.id;
   expected.predicted_px = seen->predicted;
   expected.S = map_.state().innovation_covariance(seen->sighting);
-  if (!(expected.S.determinant() > 0.0)) return std::nullopt;
-  const Eigen::Vector3d values = map_.state().landmark(feature.element);
-  if (feature.is_point()) {
-    expected.p_world_m = values;
-  } else {
-    const double least_rho = 1.0 / options_.depth.farthest_m;
-    expected.p_world_m = point_of_ray(camera_.pose(map_.anchor_pose(feature.anchor)),
-                                      {values[0], values[1], std::max(values[2], least_rho)})
-                             .p_world;
-  }
+  if (!(expected.S.determinant() > 0.0)) return;
+  expected.p_world_m = place(feature);
   expected.information_nats = 0.5 * std::log(expected.S.determinant() / seen->sighting.R.determinant());
-  return expected;
+  expectations_.push_back(expected);
 }
 
 PixelSlam::Baseline PixelSlam::baseline(const Candidate& candidate) const {
   const ekf::State& state = map_.state();
   const std::size_t anchor = state.offset(map_.anchor_element(candidate.anchor));
   const std::array<std::size_t, 6> rows{0, 1, 2, anchor, anchor + 1, anchor + 2};
-  Baseline line{
-      camera_.pose(state.pose().T_world_robot), camera_.pose(map_.anchor_pose(candidate.anchor)), {}};
+  Baseline line{camera_pose(), camera_.pose(map_.anchor_pose(candidate.anchor)), {}};
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       line.P(i, j) = state.covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
@@ -288,11 +307,16 @@ std::optional<PixelSlam::PredictedPixel> PixelSlam::predict_pixel(const Candidat
   Eigen::Matrix<double, 2, 6> H;
   H << h->H_pose, h->H_anchor;
   const Eigen::Matrix2d H_xy = h->H_ray.leftCols<2>();
-  const ekf::ErrorTerms shaken = vibration(h->p_camera, 1.0);
+  const ekf::ErrorTerms shaken = vibration(h->p_camera, h->dpixel_dpoint);
   const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
-  return PredictedPixel{
-      h->predicted,
-      H * baseline.P * H.transpose() + H_xy * candidate.xy_covariance * H_xy.transpose() + J * J.transpose()};
+  const double wandered =
+      rho > 0.0
+          ? wandered_px2(point_of_ray(baseline.anchor, {candidate.xy.x(), candidate.xy.y(), rho}).p_world,
+                         baseline.anchor.p_world_camera, baseline.here.p_world_camera)
+          : 0.0;
+  return PredictedPixel{h->predicted, H * baseline.P * H.transpose() +
+                                          H_xy * candidate.xy_covariance * H_xy.transpose() +
+                                          J * J.transpose() + wandered * Eigen::Matrix2d::Identity()};
 }
 
 /// The moments of the pixels that its depths predict, by three of them (Gauss and Hermite).
@@ -308,8 +332,7 @@ void PixelSlam::expect_candidate(const Candidate& candidate) {
   expected.id = candidate.id;
   expected.candidate = true;
   expected.predicted_px = (4.0 * middle->pixel + near->pixel + far->pixel) / 6.0;
-  const double model = options_.model_sigma_px * options_.model_sigma_px;
-  expected.S = (model + kRounding) * Eigen::Matrix2d::Identity();
+  expected.S = model_noise() + kRounding * Eigen::Matrix2d::Identity();
   for (const auto& [weight, at] : {std::pair(4.0 / 6.0, *middle), {1.0 / 6.0, *near}, {1.0 / 6.0, *far}}) {
     const Eigen::Vector2d d = at.pixel - expected.predicted_px;
     expected.S += weight * (at.S + d * d.transpose());
@@ -352,7 +375,7 @@ const Correction& PixelSlam::correct(std::span<const Observation> observations) 
 void PixelSlam::sort_out(std::size_t index, const Observation& observation) {
   Innovation& innovation = innovations_[index];
   innovation.outcome = Outcome::kUnusable;
-  if (usable_pixel(observation) == nullptr) return;
+  if (!is_usable(observation)) return;
   innovation.outcome = Outcome::kUnidentified;
   if (!observation.id) return;
   innovation.landmark = *observation.id;
@@ -405,7 +428,7 @@ void PixelSlam::collect(std::size_t index, const Observation& observation) {
 /// Appends a sighting to those of the block and notes its NIS.
 bool PixelSlam::settle(std::size_t index, const Observation& observation) {
   Innovation& innovation = innovations_[index];
-  auto seen = sight(*map_.find(innovation.landmark));
+  auto seen = sight(*map_.find(innovation.landmark), camera_pose());
   if (!seen) return false;
   ekf::Sighting& sighting = seen->sighting;
   sighting.R = noise(observation);
@@ -492,12 +515,13 @@ bool PixelSlam::apply(std::span<const Observation> observations) {
 /// leads to where nothing can be seen.
 bool PixelSlam::relinearize(std::span<const Observation> observations) {
   const ekf::State& state = map_.state();
+  const CameraPose there_camera = camera_.pose(state.proposed_pose());
   refined_.clear();
   double change = 0.0;
   for (std::size_t k = 0; k < used_.size(); ++k) {
     const ekf::Sighting& before = sightings_[k];
     const int feature = *map_.find(innovations_[used_[k]].landmark);
-    auto there = look(map_.feature(feature), state.proposed_pose(),
+    auto there = look(map_.feature(feature), there_camera,
                       [&state](int element) { return state.proposed_landmark(element); });
     if (!there) return false;
     ekf::Sighting& sighting = there->sighting;
@@ -553,7 +577,7 @@ void PixelSlam::book(std::size_t k) {
 /// Rays that were seen and have become as good as linear go on as points; those that lead behind infinity go.
 /// Only where they were just seen: from elsewhere any ray may look linear.
 void PixelSlam::settle_rays() {
-  const Eigen::Vector3d here = camera_.pose(pose().T_world_robot).p_world_camera;
+  const Eigen::Vector3d here = camera_pose().p_world_camera;
   for (const Innovation& innovation : innovations_) {
     const auto index = map_.find(innovation.landmark);
     if (innovation.outcome != Outcome::kMatched || !index || map_.feature(*index).is_point()) continue;
@@ -609,13 +633,10 @@ void PixelSlam::accept(Candidate& candidate, std::size_t index, std::span<const 
   if (make_room()) {
     const auto [rho, sigma] = candidate.depths.inverse_depth();
     const bool as_point = options_.init == ekf::Initialization::kArticle;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    covariance.topLeftCorner<2, 2>() = candidate.xy_covariance;
-    covariance(2, 2) = std::pow(as_point ? sigma : std::min(kWidening * sigma, unknown_depth().sigma), 2);
-    map_.add_ray(candidate.id, anchor, {candidate.xy.x(), candidate.xy.y(), rho}, covariance);
-    management_.added();
-    const int feature = static_cast<int>(map_.features().size()) - 1;
-    map_.feature(feature).observations = candidate.matches + 1;
+    const double unsure = as_point ? sigma : std::min(kWidening * sigma, unknown_depth().sigma);
+    const int feature = add_ray(candidate.id, anchor, {candidate.xy.x(), candidate.xy.y(), rho},
+                                ray_covariance(candidate.xy_covariance, unsure), {}, candidate.matches + 1);
+    let_wander(feature, camera_pose());
     if (as_point)
       map_.make_point(feature, camera_);
     else
@@ -624,6 +645,16 @@ void PixelSlam::accept(Candidate& candidate, std::size_t index, std::span<const 
     removed_.push_back(candidate.id);
   }
   map_.release(anchor);
+}
+
+/// Its index. The map must not be full.
+int PixelSlam::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
+                       const Eigen::Matrix3d& covariance, const ekf::ErrorTerms& errors, int observations) {
+  const int index = map_.add_ray(id, anchor, ray, covariance, errors);
+  management_.added();
+  map_.feature(index).observations = observations;
+  map_.feature(index).seen_from_m = camera_.pose(map_.anchor_pose(anchor)).p_world_camera;
+  return index;
 }
 
 /// Updates the state with one sighting alone.
@@ -642,31 +673,41 @@ void PixelSlam::begin(std::size_t index, const Observation& observation) {
   const auto ray = camera_.ray(pixel_of(observation));
   const bool at_once = options_.init == ekf::Initialization::kInverseDepth;
   const auto slot = std::ranges::find_if(candidates_, [](const Candidate& c) { return c.anchor < 0; });
-  if (!ray || (at_once ? !make_room() : slot == candidates_.end())) return;
+  if (!ray || (!at_once && slot == candidates_.end())) return;
   if (!anchor_ && !free_an_anchor()) return;
+  if (at_once && !make_room()) return;
   if (!anchor_) anchor_ = map_.add_anchor();
   innovation.outcome = Outcome::kAdded;
   const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * noise(observation) * ray->dxy_dpixel.transpose();
-  ekf::ErrorTerms shaken = vibration(ray->xy.homogeneous(), -1.0);
-  shaken[0].J.topRows<2>() = (ray->dxy_dpixel * shaken[0].J.topRows<2>()).eval();
+  const ekf::ErrorTerms shaken = shaken_ray(*ray);
   if (at_once) {
     const auto [rho, sigma] = unknown_depth();
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    covariance.topLeftCorner<2, 2>() = xy_covariance;
-    covariance(2, 2) = sigma * sigma;
-    map_.add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, covariance, shaken);
-    management_.added();
-    map_.feature(static_cast<int>(map_.features().size()) - 1).observations = 1;
+    add_ray(innovation.landmark, *anchor_, {ray->xy.x(), ray->xy.y(), rho},
+            ray_covariance(xy_covariance, sigma), shaken, 1);
     return;
   }
   const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
-  slot->id = innovation.landmark;
-  slot->anchor = *anchor_;
   map_.hold(*anchor_);
-  slot->xy = ray->xy;
-  slot->xy_covariance = xy_covariance + J * J.transpose();
-  slot->depths.restart();
-  slot->pictures = slot->looks = slot->matches = 0;
+  slot->start(innovation.landmark, *anchor_, ray->xy, xy_covariance + J * J.transpose());
+}
+
+/// What a vibration of the camera does to the (x, y) of the ray that is seen at a pixel.
+ekf::ErrorTerms PixelSlam::shaken_ray(const PixelRay& ray) const {
+  const Eigen::Vector3d direction = ray.xy.homogeneous();
+  ekf::ErrorTerms shaken;
+  if (const auto image = camera_.project(direction)) shaken = vibration(direction, image->dpixel_dpoint);
+  shaken[0].J.topRows<2>() = (-ray.dxy_dpixel * shaken[0].J.topRows<2>()).eval();
+  return shaken;
+}
+
+void PixelSlam::Candidate::start(LandmarkId seen, int from, const Eigen::Vector2d& ray_xy,
+                                 const Eigen::Matrix2d& covariance) {
+  id = seen;
+  anchor = from;
+  xy = ray_xy;
+  xy_covariance = covariance;
+  depths.restart();
+  pictures = looks = matches = 0;
 }
 
 /// Inverse depth of a point that was seen once: two standard deviations span all that it may be.

@@ -31,7 +31,8 @@ enum class Initialization {
 struct PixelSlamOptions {
   int capacity = 100;                ///< most landmarks in the map
   double sigma_px = 0.5;             ///< of pixels that came without covariance
-  double model_sigma_px = 0.5;       ///< what every pixel is off besides: lens, warp, plane
+  double model_sigma_px = 0.1;       ///< what every pixel is off besides, anew in every picture
+  double wander_px = 0.1;            ///< how far a patch wanders while the view of it turns by 1 deg
   double vibration_deg = 0.05;       ///< of the camera's pitch and roll, anew in every picture
   double gate_probability = 0.9999;  ///< part of the true sightings that may pass
   ekf::Initialization init = ekf::Initialization::kDelayed;
@@ -56,8 +57,6 @@ class PixelSlam final : public Filter {
   /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
   /// once per picture. Valid until the next call of anything that changes the filter.
   [[nodiscard]] std::span<const Expectation> expect();
-  /// The landmarks of the last expect() that were not matched yet, where they are expected now.
-  [[nodiscard]] std::span<const Expectation> expect_again();
   /// Looked for where it was expected, and not found.
   void missed(std::span<const LandmarkId> landmarks);
   /// Pixel observations; may be called several times per picture. Correction::removed names those (landmarks
@@ -82,12 +81,13 @@ class PixelSlam final : public Filter {
     int pictures = 0;
     int looks = 0;
     int matches = 0;
+
+    void start(LandmarkId seen, int from, const Eigen::Vector2d& ray_xy, const Eigen::Matrix2d& covariance);
   };
-  /// A sighting with where it was expected and the point in the camera frame.
+  /// A sighting with where it was expected.
   struct Sight {
     ekf::Sighting sighting;
     Eigen::Vector2d predicted;
-    Eigen::Vector3d p_camera;
   };
   /// The joint covariance of robot and anchor, and their places: what a candidate's pixel depends on.
   struct Baseline {
@@ -100,15 +100,23 @@ class PixelSlam final : public Filter {
   };
 
   void begin_picture();
-  [[nodiscard]] ekf::ErrorTerms vibration(const Eigen::Vector3d& p_camera, double sign) const;
+  using PixelJacobian = Eigen::Matrix<double, 2, 3>;  ///< d(u, v)/d(point in the camera frame)
+  [[nodiscard]] ekf::ErrorTerms vibration(const Eigen::Vector3d& p_camera, const PixelJacobian& J) const;
+  [[nodiscard]] Eigen::Matrix2d model_noise() const;
   [[nodiscard]] Eigen::Matrix2d noise(const Observation& observation) const;
 
   template <class Values>
-  [[nodiscard]] std::optional<Sight> look(const ekf::PixelMap::Feature& feature, const Pose2& T_world_robot,
+  [[nodiscard]] std::optional<Sight> look(const ekf::PixelMap::Feature& feature, const CameraPose& here,
                                           const Values& values) const;
-  [[nodiscard]] std::optional<Sight> sight(int index) const;
-  [[nodiscard]] bool is_in_view(const ekf::PixelMap::Feature& feature, const Sight& sight) const;
-  [[nodiscard]] std::optional<Expectation> expect_feature(int index) const;
+  [[nodiscard]] CameraPose camera_pose() const { return camera_.pose(pose().T_world_robot); }
+  [[nodiscard]] std::optional<Sight> sight(int index, const CameraPose& here) const;
+  [[nodiscard]] bool is_in_view(const ekf::PixelMap::Feature& feature, const CameraPose& here,
+                                const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] Eigen::Vector3d place(const ekf::PixelMap::Feature& feature) const;
+  [[nodiscard]] double wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
+                                    const Eigen::Vector3d& to) const;
+  void let_wander(int index, const CameraPose& here);
+  void expect_feature(int index, const CameraPose& here);
   void expect_candidate(const Candidate& candidate);
 
   [[nodiscard]] Baseline baseline(const Candidate& candidate) const;
@@ -129,9 +137,12 @@ class PixelSlam final : public Filter {
   void book(std::size_t k);
   void settle_rays();
   void weigh(std::size_t index, std::span<const Observation> observations);
+  int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
+              const ekf::ErrorTerms& errors, int observations);
   void accept(Candidate& candidate, std::size_t index, std::span<const Observation> observations);
   void confirm(std::size_t index, std::span<const Observation> observations);
   void begin(std::size_t index, const Observation& observation);
+  [[nodiscard]] ekf::ErrorTerms shaken_ray(const PixelRay& ray) const;
   [[nodiscard]] ekf::DepthParticles::Spread unknown_depth() const;
   [[nodiscard]] ekf::DepthParticles::Spread inverse_depth(int index) const;
   [[nodiscard]] bool free_an_anchor();

@@ -475,6 +475,13 @@ void State::make_absolute(int landmark, int anchor, const Eigen::Vector3d& posit
   relative_[static_cast<std::size_t>(landmark)] = 0;
 }
 
+void State::loosen(int index, const Eigen::Matrix3d& covariance) {
+  const std::size_t at = offset(index);
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension_); ++a)
+    for (std::size_t b = a; b < static_cast<std::size_t>(dimension_); ++b)
+      P_[(at + a) * ld_ + at + b] += covariance(static_cast<int>(a), static_cast<int>(b));
+}
+
 void State::remove(int index) {
   assert(index >= 0 && index < landmarks_);
   join_robot_rows();

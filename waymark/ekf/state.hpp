@@ -155,6 +155,9 @@ class State {
   void make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
                      const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark);
 
+  /// Makes a landmark less sure by itself: adds to its own covariance. O(1).
+  void loosen(int index, const Eigen::Matrix3d& covariance);
+
   /// S of all these sightings together, lower triangle, and its size: for those who ask which of them agree.
   /// Drops what was proposed. A view, good until the next call that changes or proposes anything.
   [[nodiscard]] Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,

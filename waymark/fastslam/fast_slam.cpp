@@ -29,10 +29,6 @@ constexpr int kMostGatedInARow = 5;
 constexpr int kMostDoublings = 8;
 const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 
-// How much of a way a turn on the spot counts as: it shows a landmark from no new place, but at a new
-// bearing.
-constexpr double kMetresPerRadian = 0.3;
-
 // What a float can tell: a sensor is not believed to be sharper than that, as a part of its range and in rad.
 constexpr double kSharpestSigma = 1e-6;
 
@@ -53,12 +49,6 @@ constexpr double kMostMissed = 0.25;
 
 // Whether a landmark may become a point is asked at every so many sightings of it.
 constexpr int kSightingsPerRefinement = 4;
-
-bool is_finite(const Motion& motion) {
-  const Pose2& T = motion.increment;
-  return std::isfinite(T.x_m) && std::isfinite(T.y_m) && std::isfinite(T.theta_rad) &&
-         motion.covariance.allFinite();
-}
 
 /// The numbers of a measurement; what was not measured is 0.
 struct Measured {
@@ -197,7 +187,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
 void FastSlam::predict(const Motion& motion) {
   if (is_still(motion) || !is_finite(motion)) return;
   pending_ = compose(pending_, motion);
-  way_m_ += motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);
+  way_m_ += way_m(motion);
   moved_ = true;
   history_.move(motion.increment);
   if (pending_.covariance(2, 2) < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;

@@ -15,6 +15,7 @@ std::optional<PixelLinearization> observe_point(const Camera& camera, const Came
   PixelLinearization h;
   h.predicted = image->pixel;
   h.p_camera = p_camera;
+  h.dpixel_dpoint = image->dpixel_dpoint;
   h.H_landmark = image->dpixel_dpoint * camera_pose.R_camera_world;
   h.H_pose = -h.H_landmark * camera_pose.dp_dpose;
   h.H_pose.col(2) += image->dpixel_dpoint * (camera_pose.dR_camera_world_dth * from_camera);
@@ -35,6 +36,7 @@ std::optional<RayLinearization> observe_ray(const Camera& camera, const CameraPo
   RayLinearization h;
   h.predicted = image->pixel;
   h.p_camera = p_camera;
+  h.dpixel_dpoint = image->dpixel_dpoint;
   h.H_pose = -rho * dpixel_dw * camera_pose.dp_dpose;
   h.H_pose.col(2) += image->dpixel_dpoint * (camera_pose.dR_camera_world_dth * w);
   h.H_anchor = rho * dpixel_dw * anchor.dp_dpose;

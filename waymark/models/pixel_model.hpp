@@ -11,10 +11,11 @@ namespace waymark {
 
 /// A pixel observation linearised at a robot pose and a point.
 struct PixelLinearization {
-  Eigen::Vector2d predicted;               ///< px
-  Eigen::Matrix<double, 2, 3> H_pose;      ///< d(u, v)/d(x, y, theta) of the robot
-  Eigen::Matrix<double, 2, 3> H_landmark;  ///< d(u, v)/d(x, y, z) of the point
-  Eigen::Vector3d p_camera;                ///< the point in the camera frame, m
+  Eigen::Vector2d predicted;                  ///< px
+  Eigen::Matrix<double, 2, 3> H_pose;         ///< d(u, v)/d(x, y, theta) of the robot
+  Eigen::Matrix<double, 2, 3> H_landmark;     ///< d(u, v)/d(x, y, z) of the point
+  Eigen::Vector3d p_camera;                   ///< the point in the camera frame, m
+  Eigen::Matrix<double, 2, 3> dpixel_dpoint;  ///< d(u, v)/d p_camera
 };
 
 /// A point in the world (x, y, z up) seen by a camera on a robot on the plane (Vincke et al. 2012, equations
@@ -28,11 +29,12 @@ struct PixelLinearization {
 /// share that were first seen in one picture. Seen from a camera with p_camera ~ R_cw [rho (c_anchor - c) +
 /// R_wc_anchor (x, y, 1)]: finite down to rho = 0, a point at infinity.
 struct RayLinearization {
-  Eigen::Vector2d predicted;             ///< px
-  Eigen::Matrix<double, 2, 3> H_pose;    ///< d(u, v)/d(x, y, theta) of the robot
-  Eigen::Matrix<double, 2, 3> H_anchor;  ///< d(u, v)/d(x, y, theta) of the robot then
-  Eigen::Matrix<double, 2, 3> H_ray;     ///< d(u, v)/d(x, y, rho)
-  Eigen::Vector3d p_camera;              ///< rho times the point in the camera frame
+  Eigen::Vector2d predicted;                  ///< px
+  Eigen::Matrix<double, 2, 3> H_pose;         ///< d(u, v)/d(x, y, theta) of the robot
+  Eigen::Matrix<double, 2, 3> H_anchor;       ///< d(u, v)/d(x, y, theta) of the robot then
+  Eigen::Matrix<double, 2, 3> H_ray;          ///< d(u, v)/d(x, y, rho)
+  Eigen::Vector3d p_camera;                   ///< rho times the point in the camera frame
+  Eigen::Matrix<double, 2, 3> dpixel_dpoint;  ///< d(u, v)/d p_camera
 };
 [[nodiscard]] std::optional<RayLinearization> observe_ray(const Camera& camera, const CameraPose& camera_pose,
                                                           const CameraPose& anchor,

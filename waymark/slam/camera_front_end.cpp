@@ -9,7 +9,6 @@ CameraFrontEnd::CameraFrontEnd(PixelSlam& filter, const vision::TrackerOptions& 
     : filter_(filter),
       camera_(camera),
       on_the_clock_(options.budget.kind == vision::BudgetKind::kClock),
-      two_rounds_(options.first_observed > 0),
       tracker_(options, search, camera, threads) {
   constexpr std::size_t kRoom = 256;  // for innovations of one picture
   innovations_.reserve(kRoom);
@@ -22,10 +21,6 @@ bool CameraFrontEnd::fits(const ImageView& image) const {
 const Correction& CameraFrontEnd::see(const ImageView& image) {
   innovations_.clear();
   begin(image);
-  if (two_rounds_) {
-    correct(tracker_.match_first());
-    tracker_.renew(filter_.expect_again());
-  }
   correct(tracker_.match());
   const Correction& last = correct(tracker_.finish());
   correction_ = {innovations_, last.removed};

@@ -39,7 +39,6 @@ class CameraFrontEnd {
   PixelSlam& filter_;
   Camera camera_;
   bool on_the_clock_;
-  bool two_rounds_;
   vision::Tracker tracker_;
   std::vector<Innovation> innovations_;
   Correction correction_;

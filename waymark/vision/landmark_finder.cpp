@@ -37,7 +37,7 @@ Finding LandmarkFinder::look_for(const Expectation& expected, const ImageView& i
   const Patch& patch = appearance.patch.patch();
   const auto match = search_.find(image, patch, expected.predicted_px, expected.S);
   finding.cost_ns += costs_.window_ns * static_cast<double>(search_.windows());
-  if (!match || (options_.unambiguous && match->ambiguous)) return finding;
+  if (!match) return finding;
   finding.pixel = Eigen::Vector2d(match->u, match->v);
   locate(image, patch, *match, finding);
   if (finding.result != Look::Result::kFound && should_be_seen(expected, image, patch.size))

@@ -11,9 +11,8 @@ namespace waymark::vision {
 
 struct FinderOptions {
   int patch_px = 16;
-  bool warp = true;          ///< to the viewpoint; otherwise patches stay as they were cut
-  bool subpixel = true;      ///< otherwise places are known to the whole pixel
-  bool unambiguous = false;  ///< leaves what looks right in several places for when less is searched
+  bool warp = true;      ///< to the viewpoint; otherwise patches stay as they were cut
+  bool subpixel = true;  ///< otherwise places are known to the whole pixel
 };
 
 /// Where a landmark was found, or what came of looking for it.

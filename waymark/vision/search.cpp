@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <tuple>
 
 #include <Eigen/LU>
@@ -120,25 +119,8 @@ std::optional<Match> Search::find(const ImageView& image, const Patch& patch,
   else
     score_corners(task, best);
   if (!best) return best;
-  const double acceptable = options_.accept_ratio * expected_zmssd(patch, options_.grey_sigma);
-  best->accepted = best->zmssd <= acceptable;
-  best->ambiguous = ellipse_.windows <= options_.max_windows && has_rival(*best, acceptable, patch.size);
+  best->accepted = best->zmssd <= options_.accept_ratio * expected_zmssd(patch, options_.grey_sigma);
   return best;
-}
-
-/// Bricks and tiles repeat themselves: of the windows just scored, does one apart from the best look right
-/// too?
-bool Search::has_rival(const Match& best, double acceptable_zmssd, int patch_size) const {
-  constexpr int kApart_px = 4;
-  const double acceptable_score = acceptable_zmssd * patch_size * patch_size;
-  const std::uint32_t* score = scores_.data();
-  for (std::size_t k = 0; k < ellipse_.rows.size(); ++k) {
-    const WindowRow& row = ellipse_.rows[k];
-    const bool is_near = std::abs(ellipse_.first_row + static_cast<int>(k) - best.v) <= kApart_px;
-    for (int u = row.first; u < row.first + row.count; ++u, ++score)
-      if (*score <= acceptable_score && (!is_near || std::abs(u - best.u) > kApart_px)) return true;
-  }
-  return false;
 }
 
 /// Around the strongest corners in the ellipse, since another view moves a corner by a pixel.

@@ -28,7 +28,7 @@ struct SearchOptions {
   int max_windows = 2500;       ///< of one search; larger ellipses are searched at corners only
   MatchScore match = MatchScore::kMap;
   double grey_sigma = 3.0;    ///< noise of a pixel, grey levels
-  double accept_ratio = 4.0;  ///< of the ZMSSD that the right place is expected to have
+  double accept_ratio = 1.5;  ///< of the ZMSSD that the right place is expected to have
   CornerOptions corners{.threshold = 15, .arc = 9};  ///< of the search at corners
   kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
@@ -57,7 +57,6 @@ struct Match {
   double distance2 = 0.0;  ///< d^T S^-1 d
   double score = 0.0;      ///< as options say
   bool accepted = false;   ///< similar enough to be the landmark
-  bool ambiguous = false;  ///< so is another place in the ellipse
 };
 
 /// Looks for patches in an image where a filter expects them. Holds buffers, so one per thread; allocates for
@@ -83,7 +82,6 @@ class Search {
   struct Task;
   void score_ellipse(const Task& task, std::optional<Match>& best);
   void score_corners(const Task& task, std::optional<Match>& best);
-  [[nodiscard]] bool has_rival(const Match& best, double acceptable_zmssd, int patch_size) const;
   void score_rows(const Task& task, int first_row, const kernels::WindowRow* rows, std::size_t row_count,
                   std::optional<Match>& best);
 

@@ -33,13 +33,8 @@ void describe(Schema& schema, TrackerOptions& o) {
                  "side of the square around a landmark that is compared");
   schema.boolean("tracker.warp", o.finder.warp, "turns and scales patches to the viewpoint");
   schema.boolean("tracker.subpixel", o.finder.subpixel, "finds places between the pixels");
-  schema.boolean(
-      "tracker.unambiguous", o.finder.unambiguous,
-      "leaves a landmark that looks right in several places of its ellipse for when less is searched");
   schema.choice("tracker.kernels", o.instructions, {"simd", "scalar"},
                 "code that compares patches and finds corners: simd, or scalar for comparison");
-  schema.integer("tracker.first_observed", o.first_observed, {0, 10000.0},
-                 "landmarks that are looked for before the filter says anew where it expects the others");
   schema.integer("tracker.most_observed", o.most_observed, {1.0, 10000.0},
                  "landmarks that are looked for in one picture");
   describe(schema, o.budget);
@@ -69,7 +64,6 @@ Tracker::Tracker(const TrackerOptions& options, const SearchOptions& search, con
   appearances_.reserve(kRoom);
   R_.reserve(kRoom);
   looks_.reserve(kRoom);
-  reported_.reserve(kRoom);
   features_.reserve(kRoom);
   proposed_.reserve(kRoom);
 }
@@ -96,8 +90,6 @@ void Tracker::begin(const ImageView& image, const Pose2& T_world_robot,
 void Tracker::copy(std::span<const Expectation> expectations) {
   expectations_.assign(expectations.begin(), expectations.end());
   R_.assign(expectations.size(), Eigen::Matrix2d::Zero());
-  reported_.assign(expectations.size(), 0);
-  tried_ = 0;
   appearances_.clear();
   looks_.clear();
   features_.clear();
@@ -144,30 +136,12 @@ void Tracker::look_behind() {
   save_up();
 }
 
-Sightings Tracker::match_first() { return match(options_.first_observed); }
-
-Sightings Tracker::match() { return match(options_.most_observed - tried_); }
-
-Sightings Tracker::match(int most) {
+Sightings Tracker::match() {
   BlockTimer timer(blocks_);
-  if (is_usable_) look_for(false, most, landmarks_);
+  if (is_usable_) look_for(false, options_.most_observed, landmarks_);
   gather(false, landmarks_);
   timer.finish(kMatch);
   return landmarks_.sightings();
-}
-
-void Tracker::renew(std::span<const Expectation> expectations) {
-  for (std::size_t k = 0; k < expectations_.size(); ++k) {
-    if (expectations_[k].candidate || looks_[k].result != Look::Result::kNotTried) continue;
-    const auto renewed = std::ranges::find(expectations, expectations_[k].id, &Expectation::id);
-    if (renewed == expectations.end()) {
-      appearances_[k] = nullptr;
-      continue;
-    }
-    expectations_[k] = *renewed;
-    looks_[k].predicted_px = renewed->predicted_px;
-    looks_[k].S = renewed->S;
-  }
 }
 
 /// Looks for the most useful of the landmarks, or candidates, that are known.
@@ -175,8 +149,7 @@ void Tracker::look_for(bool candidates, int most, Seeker& seeker) {
   seeker.prospects.clear();
   for (std::size_t k = 0; k < expectations_.size(); ++k) {
     const Expectation& e = expectations_[k];
-    if (e.candidate == candidates && appearances_[k] != nullptr &&
-        looks_[k].result == Look::Result::kNotTried)
+    if (e.candidate == candidates && appearances_[k] != nullptr)
       seeker.prospects.push_back({k, e.information_nats, seeker.finder.expected_cost_ns(e)});
   }
   order_by_usefulness(seeker.prospects);
@@ -195,7 +168,6 @@ void Tracker::look_for(bool candidates, int most, Seeker& seeker) {
     looks_[k].pixel = finding.pixel;
     R_[k] = finding.R;
   }
-  if (!candidates) tried_ += tried;
 }
 
 /// What came of them, without what learn() has been told to forget meanwhile.
@@ -205,7 +177,7 @@ void Tracker::gather(bool candidates, Seeker& seeker) {
   for (std::size_t k = 0; k < expectations_.size(); ++k) {
     const Look& look = looks_[k];
     if (expectations_[k].candidate != candidates || look.result == Look::Result::kNotTried) continue;
-    if (std::exchange(reported_[k], 1) != 0 || memory_.find(look.id) == nullptr) continue;
+    if (memory_.find(look.id) == nullptr) continue;
     if (look.result == Look::Result::kFound)
       seeker.found.push_back({look.id, Pixel{look.pixel.x(), look.pixel.y()}, R_[k]});
     if (look.result == Look::Result::kMissed) seeker.missed.push_back(look.id);

@@ -21,7 +21,6 @@
 namespace waymark::vision {
 
 struct TrackerOptions {
-  int first_observed = 8;  ///< landmarks looked for before the filter says anew where it expects the others
   int most_observed = 30;  ///< landmarks looked for in one picture
   FinderOptions finder;
   CornerOptions corners;
@@ -47,8 +46,7 @@ struct TrackerCounts {
 };
 
 /// The camera front end: remembers what landmarks look like, looks for them where they are expected, and
-/// proposes new corners where the picture has none. Per picture begin(), match_first(), renew(), match(),
-/// finish(), learn().
+/// proposes new corners where the picture has none. Per picture begin(), match(), finish(), learn().
 ///
 /// A picture that shows nothing (is_usable()) has no sightings, and nothing counts as missed in it. Without
 /// new landmarks nothing is allocated from the first picture on, nor with them up to VisualMemory::kRoom.
@@ -61,13 +59,7 @@ class Tracker {
   /// Starts on a picture, taken at the expected pose; it must stay where it is until finish(). Expectations
   /// are copied.
   void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
-  /// The few landmarks that tell most for their cost. What they say of the pose makes the search for the
-  /// others short, and keeps it from places that only look right.
-  [[nodiscard]] Sightings match_first();
-  /// Where the filter expects the others now; those that it does not name are not looked for.
-  void renew(std::span<const Expectation> expectations);
-  /// The landmarks that were not looked for yet: those that tell most for their cost first, within the
-  /// budget.
+  /// The landmarks: those that tell most for their cost first, within the budget.
   [[nodiscard]] Sightings match();
   /// The candidates, and new corners under new identities. A new corner is the pixel around which its patch
   /// is cut, so its own place is certain by definition; it claims kLeastPixelSigma, for what later matches
@@ -102,7 +94,6 @@ class Tracker {
   void copy(std::span<const Expectation> expectations);
   void look_behind();
   void save_up();
-  [[nodiscard]] Sightings match(int most);
   void look_for(bool candidates, int most, Seeker& seeker);
   void gather(bool candidates, Seeker& seeker);
   void add_new_corners();
@@ -127,8 +118,6 @@ class Tracker {
   std::vector<Appearance*> appearances_;  ///< of each; null where it is not known
   std::vector<Eigen::Matrix2d> R_;        ///< of each that was found
   std::vector<Look> looks_;
-  std::vector<char> reported_;             ///< of each: whether its sighting or miss was
-  int tried_ = 0;                          ///< landmarks
   std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be looked for
   int candidates_under_way_ = 0;
   std::span<const Corner> corners_;
