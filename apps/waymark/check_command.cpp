@@ -150,10 +150,7 @@ std::string advice(const Request& request, const LogInfo& log, const Contents& c
   if (!has("observations") && !log.only_pixels)
     return "only dead reckoning: there are images, but camera.yaml is missing";
   std::string command = "waymark run " + request.input + " -o out";
-  if (log.only_pixels)
-    command += " --observe pixel";
-  else if (contents.sightings.empty() && contents.unidentified > 0)
-    command += " --filter fastslam";
+  if (log.only_pixels) command += " --observe pixel";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
   return command;
 }
