@@ -144,8 +144,9 @@ std::vector<std::string> find_oddities(const Request& request, const LogInfo& lo
 /// What to run on it, or why nothing can be run.
 std::string advice(const Request& request, const LogInfo& log, const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
-  if (!has("wheel angles") && !has("velocity") && !has("odometry poses"))
-    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv or odometry.csv)";
+  if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
+    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv, steering.csv or "
+           "odometry.csv)";
   if (!has("observations") && !has("images")) return "only dead reckoning: there are no observations";
   if (!has("observations") && !log.only_pixels)
     return "only dead reckoning: there are images, but camera.yaml is missing";

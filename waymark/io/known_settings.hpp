@@ -21,5 +21,7 @@ extern const KnownSettings kMrclamSettings;
 extern const KnownSettings kPlazaSettings;
 extern const KnownSettings kLostInTheWoodsSettings;
 extern const KnownSettings kUwbLabyrinthSettings;
+extern const KnownSettings kVictoriaParkSettings;
+extern const KnownSettings kCarParkSettings;
 
 }  // namespace waymark

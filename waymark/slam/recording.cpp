@@ -70,7 +70,7 @@ std::optional<Error> read_all(Source& source, const TimeSpan& span,
   }
 }
 
-/// Truth goes to the record, the rest to the pipeline; wheels of unknown size end the run.
+/// Truth goes to the record, the rest to the pipeline; wheels or a car of unknown size end the run.
 Result<void> route(Event event, const OdometryOptions& odometry, Recording& recording, Pipeline& pipeline) {
   if (const auto* truth = std::get_if<Truth>(&event.content)) {
     recording.truth.emplace_back(event.stamp, *truth);
@@ -78,6 +78,8 @@ Result<void> route(Event event, const OdometryOptions& odometry, Recording& reco
   }
   if (std::holds_alternative<WheelAngles>(event.content))
     if (auto known = check(odometry.wheels); !known) return known;
+  if (std::holds_alternative<Steering>(event.content))
+    if (auto known = check(odometry.car); !known) return known;
   pipeline.push(std::move(event));
   return {};
 }
