@@ -17,6 +17,14 @@ const double kLogTurn = std::log(2.0 * kPi);
 
 constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
+/// A L^-T. Eigen's own solver is made for larger ones.
+Eigen::Matrix2d divided_by_transposed(const Eigen::Matrix2d& A, const Eigen::Matrix2d& L) {
+  Eigen::Matrix2d X;
+  X.col(0) = A.col(0) / L(0, 0);
+  X.col(1) = (A.col(1) - X.col(0) * L(1, 0)) / L(1, 1);
+  return X;
+}
+
 }  // namespace
 
 JointMatch::JointMatch(double gate_probability, int most_sightings, int most_nodes)
@@ -124,7 +132,7 @@ bool JointMatch::choose(int pair) {
     Eigen::Matrix2d sum = index(pair) > other ? common(index(pair), other)
                                               : Eigen::Matrix2d(common(other, index(pair)).transpose());
     for (std::size_t i = 0; i < j; ++i) sum -= row[i] * L_[j * steps_.size() + i].transpose();
-    row[j] = steps_[j].L.triangularView<Eigen::Lower>().solve(sum.transpose()).transpose();
+    row[j] = divided_by_transposed(sum, steps_[j].L);
     left -= row[j] * row[j].transpose();
     nu -= row[j] * steps_[j].y;
   }
@@ -132,7 +140,8 @@ bool JointMatch::choose(int pair) {
   if (llt.info() != Eigen::Success) return false;
   Step& step = steps_[k];
   step.L = llt.matrixL();
-  step.y = step.L.triangularView<Eigen::Lower>().solve(nu);
+  step.y[0] = nu[0] / step.L(0, 0);
+  step.y[1] = (nu[1] - step.L(1, 0) * step.y[0]) / step.L(1, 1);
   const Step* const before = k > 0 ? &steps_[k - 1] : nullptr;
   step.d2 = (before != nullptr ? before->d2 : 0.0) + step.y.squaredNorm();
   if (!(step.d2 <= gates_[k + 1])) return false;

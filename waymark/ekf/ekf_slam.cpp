@@ -372,7 +372,7 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   for (ekf::ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
   const int landmark = state_.add(position, G_pose, noise, error.terms);
   management_.added();
-  landmarks_.push_back({.id = id, .observations = 1, .seen_at_way_m = way_m_});
+  landmarks_.push_back({.id = id, .observations = 1, .seen_at_way_m = way_m_, .place_m = inverse.p_world});
   if (observation.id)
     index_.assign(id, landmark);
   else

@@ -98,6 +98,7 @@ class EkfSlam final : public Filter {
     double seen_at_way_m = 0.0;
     int claimed_at_scan = 0;  ///< by a sighting without a name
     double sigma_m = 0.0;     ///< its position's when it was last seen: later it is no more
+    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< as it was last asked for
   };
 
   /// A sighting without a name that may be of a landmark.
@@ -167,6 +168,7 @@ class EkfSlam final : public Filter {
   // Of sightings without a name.
   void match_unnamed(std::span<const Observation> observations);
   void index_places();
+  [[nodiscard]] bool is_place_due(int landmark, const Eigen::Vector2d& p_sensor) const;
   template <class Visit>
   void visit_candidates(const Observation& observation, const Visit& visit) const;
   [[nodiscard]] double reach_m(const Observation& observation) const;

@@ -76,13 +76,25 @@ void EkfSlam::match_unnamed(std::span<const Observation> observations) {
 }
 
 void EkfSlam::index_places() {
+  const Eigen::Vector2d p_sensor = (state_.pose().T_world_robot * T_robot_sensor_).position();
   unnamed_->places.clear();
   unnamed_->sigma_m = 0.0;
   for (int k = 0; k < state_.landmarks(); ++k) {
-    unnamed_->places.emplace_back(state_.landmark(k).head<2>());
-    unnamed_->sigma_m = std::max(unnamed_->sigma_m, landmarks_[index(k)].sigma_m);
+    Landmark& landmark = landmarks_[index(k)];
+    if (is_place_due(k, p_sensor)) landmark.place_m = state_.landmark(k).head<2>();
+    unnamed_->places.push_back(landmark.place_m);
+    unnamed_->sigma_m = std::max(unnamed_->sigma_m, landmark.sigma_m);
   }
   unnamed_->grid.build(unnamed_->places);
+}
+
+/// Where a landmark outside of the region is takes a while to find out. Those far off are asked in turn.
+bool EkfSlam::is_place_due(int landmark, const Eigen::Vector2d& p_sensor) const {
+  constexpr int kTurns = 16;
+  constexpr double kMargin_m = 10.0;
+  if (state_.is_active(landmark) || (landmark + unnamed_->scan) % kTurns == 0) return true;
+  const double far_m = (landmarks_[index(landmark)].place_m - p_sensor).norm();
+  return far_m < unnamed_->sensor.max_range_m + kMargin_m;
 }
 
 /// From where a sighting is expected to where its gate may reach, but for what is unsure of the landmark.

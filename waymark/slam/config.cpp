@@ -18,18 +18,16 @@ Result<void> apply(Schema& schema, const UserSettings& user) {
   return {};
 }
 
-/// What a filter does best with a log whose sightings have no identity.
-const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
-
-Result<void> apply(Schema& schema, const LogInfo& log, FilterKind filter) {
-  if (!log.identities)
-    if (auto done = schema.set("associate", without_identities(filter), log.name); !done) return done;
+Result<void> apply(Schema& schema, const LogInfo& log) {
   if (log.only_pixels)
     if (auto done = schema.set("observe", "pixel", log.name); !done) return done;
   for (const auto& [key, value] : log.settings)
     if (auto done = schema.set(key, value, log.name); !done) return done;
   return {};
 }
+
+/// What a filter does best where sightings have no identity.
+const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
 
 Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
   if (input.starts_with(kSimulationPrefix))
@@ -96,10 +94,15 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   if (input.starts_with(kSimulationPrefix))
     config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
   Schema schema = describe(config);
-  // Twice: what the log means for the config depends on the filter, and the user outranks the log.
+  const LogInfo& log = (*source)->info();
+  if (auto done = apply(schema, log); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
-  if (auto done = apply(schema, (*source)->info(), config.filter); !done) return done.error();
-  if (auto done = apply(schema, user); !done) return done.error();
+  if (!log.identities) {
+    // The filter is settled now; but the user may have said how to associate, too.
+    if (auto done = schema.set("associate", without_identities(config.filter), log.name); !done)
+      return done.error();
+    if (auto done = apply(schema, user); !done) return done.error();
+  }
   if (config.observe == Observe::kPixel) *source = std::make_unique<ImageLoader>(std::move(*source));
   return OpenedInput{std::move(*source), config};
 }

@@ -10,7 +10,7 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
 
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.associate == Association::kMl)
-    return Error{"associate: ml is FastSLAM's; the EKF takes known, nearest or jcbb"};
+    return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
   if (config.associate != Association::kKnown && config.observe == Observe::kPixel)
     return Error{"associate: pixels need identities: associate=known"};
   if (config.ekf.update == UpdateMethod::kTextbook &&
@@ -36,7 +36,7 @@ Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
   if (config.observe == Observe::kPixel)
     return Error{"filter: fastslam does not take pixels; filter=ekf does, or choose another observe"};
   if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
-    return Error{"associate: nearest and jcbb are the EKF's; FastSLAM takes known or ml"};
+    return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
   const bool by_likelihood = config.associate == Association::kMl;
   if (by_likelihood && config.observe != Observe::kRangeBearing)
     return Error{
