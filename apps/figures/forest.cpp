@@ -19,9 +19,14 @@ namespace waymark {
 namespace {
 
 struct Request {
+  std::string filter = "fastslam";
+  std::string associate;
   int seeds = 50;
   int particles = 150;
   int sightings = 10;
+  std::optional<int> trunks;
+  std::optional<double> field_m;
+  std::optional<double> clutter;
   std::vector<std::string> settings;
 };
 
@@ -46,12 +51,26 @@ struct Pair {
 
 using Sightings = std::map<LandmarkId, int>;
 
-std::optional<RunResult> run(const Request& request, int seed, bool identities) {
-  std::vector<std::string> settings{"filter=fastslam", fmt::format("seed={}", seed),
-                                    fmt::format("fastslam.particles={}", request.particles)};
+/// Trunks as far apart, and a path as far from the edge, as in the field of 30 m.
+constexpr double kPathInside_m = 6.0;
+
+std::vector<std::string> settings_for(const Request& request, int seed, bool identities) {
+  std::vector<std::string> settings{"filter=" + request.filter, fmt::format("seed={}", seed),
+                                    fmt::format("fastslam.particles={}", request.particles),
+                                    fmt::format("sim.identities={}", identities)};
+  if (request.trunks) settings.push_back(fmt::format("sim.landmarks={}", *request.trunks));
+  if (request.field_m) {
+    settings.push_back(fmt::format("sim.landmark_area_m={}", *request.field_m));
+    settings.push_back(fmt::format("sim.side_m={}", *request.field_m - kPathInside_m));
+  }
+  if (request.clutter) settings.push_back(fmt::format("sim.clutter_probability={}", *request.clutter));
+  if (!identities && !request.associate.empty()) settings.push_back("associate=" + request.associate);
   settings.insert(settings.end(), request.settings.begin(), request.settings.end());
-  settings.push_back(fmt::format("sim.identities={}", identities));
-  auto result = run_log("sim:forest", {{}, std::move(settings)});
+  return settings;
+}
+
+std::optional<RunResult> run(const Request& request, int seed, bool identities) {
+  auto result = run_log("sim:forest", {{}, settings_for(request, seed, identities)});
   if (!result) fmt::print(stderr, "seed {}: {}\n", seed, result.error().message);
   return result && result->evaluation ? std::optional(std::move(*result)) : std::nullopt;
 }
@@ -122,8 +141,9 @@ void print_table(const Request& request) {
     known[static_cast<std::size_t>(i)] = pair.known;
     unknown[static_cast<std::size_t>(i)] = pair.unknown;
   });
-  fmt::print("world forest, FastSLAM, {} particles, {} seeds; RMSE in m as mean and median\n",
-             request.particles, request.seeds);
+  const auto filter =
+      request.filter == "ekf" ? "EKF" : fmt::format("FastSLAM, {} particles", request.particles);
+  fmt::print("world forest, {}, {} seeds; RMSE in m as mean and median\n", filter, request.seeds);
   fmt::print("{:<9}{:>16}{:>17}{:>17}{:>8}{:>11}{:>9}{:>9}{:>10}\n", "identity", "position", "aligned",
              "landmarks", "NEES", "spurious %", "missed %", "us/step", "diverged");
   print_row("known", known);
@@ -138,8 +158,14 @@ void print_table(const Request& request) {
 }  // namespace
 
 void add_forest(CLI::App& app) {
-  auto* command = app.add_subcommand("forest", "FastSLAM without identities and with them");
+  auto* command = app.add_subcommand("forest", "a filter without identities and with them");
   auto request = std::make_shared<Request>();
+  command->add_option("--filter", request->filter)->check(CLI::IsMember({"ekf", "fastslam"}));
+  command->add_option("--associate", request->associate, "how it does without identities");
+  command->add_option("--trunks", request->trunks)->check(CLI::PositiveNumber);
+  command->add_option("--field", request->field_m, "side of the square that they stand on, m")
+      ->check(CLI::Range(10.0, 1000.0));
+  command->add_option("--clutter", request->clutter, "chance that a sighting comes with a false one");
   command->add_option("--seeds", request->seeds)->check(CLI::PositiveNumber);
   command->add_option("--particles", request->particles)->check(CLI::PositiveNumber);
   command->add_option("--sightings", request->sightings, "least sightings of a trunk that may be missed");

@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// Adds `forest`: FastSLAM that is not told which landmark it sees against FastSLAM that is, on the same
+/// Adds `forest`: a filter that is not told which landmark it sees against the same one that is, on the same
 /// simulated runs.
 void add_forest(CLI::App& app);
 

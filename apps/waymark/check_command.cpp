@@ -145,16 +145,14 @@ std::vector<std::string> find_oddities(const Request& request, const LogInfo& lo
 std::string advice(const Request& request, const Config& config, const LogInfo& log,
                    const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
-  if (!has("wheel angles") && !has("velocity") && !has("odometry poses"))
-    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv or odometry.csv)";
+  if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
+    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv, steering.csv or "
+           "odometry.csv)";
   if (!has("observations") && !has("images")) return "only dead reckoning: there are no observations";
   if (log.only_pixels && !config.camera_known)
     return "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like";
   std::string command = "waymark run " + request.input + " -o out";
-  if (log.only_pixels)
-    command += " --observe pixel";
-  else if (contents.sightings.empty() && contents.unidentified > 0)
-    command += " --filter fastslam";
+  if (log.only_pixels) command += " --observe pixel";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
   return command;
 }

@@ -75,7 +75,10 @@ void add_run(CLI::App& app, Work& work) {
                    "part of the observations to use: range-bearing, range, bearing or pixel (corners in "
                    "images); default what the log offers")
       ->type_name("KIND");
-  command->add_option("--associate", request->associate, "known: by identity; ml: also without one")
+  command
+      ->add_option("--associate", request->associate,
+                   "known: by identity; without one nearest or jcbb (ekf) or ml (fastslam); default what the "
+                   "log allows")
       ->type_name("HOW");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");

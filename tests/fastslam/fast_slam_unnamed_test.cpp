@@ -8,47 +8,21 @@
 
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
+#include "support/unnamed_sightings.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 
 namespace waymark {
 namespace {
 
 using test::CircleWorld;
+using test::drive;
+using test::nearest_m;
+using test::unnamed;
 
 FastSlam make_filter(const CircleWorld& world, int particles = 100, int threads = 1) {
   FastSlamOptions options;
   options.particles = particles;
   return {options, {}, world.sensor(), 1, threads, {}, AssociationOptions{}};
-}
-
-std::vector<Observation> unnamed(std::vector<Observation> scan) {
-  for (Observation& observation : scan) observation.id.reset();
-  return scan;
-}
-
-/// Somewhere in the field of view, where nothing stands.
-Observation clutter(RandomStream& random) {
-  const double range_m = random.uniform(1.0, 12.0);
-  return {std::nullopt, RangeBearing{range_m, random.uniform(-kPi, kPi)},
-          Eigen::Matrix2d(Eigen::Vector2d(0.0025, 0.0004).asDiagonal())};
-}
-
-/// Drives among unnamed landmarks; every other scan shows something that is not there.
-void drive(FastSlam& filter, CircleWorld& world, int steps, std::uint64_t seed = 1) {
-  RandomStream random(seed, StreamPurpose::kSimulation, 77);
-  for (int i = 0; i < steps; ++i) {
-    filter.predict(world.move());
-    auto scan = unnamed(world.look());
-    if (i % 2 == 0) scan.push_back(clutter(random));
-    filter.correct(scan);
-  }
-}
-
-double nearest_m(const Snapshot& snapshot, const Eigen::Vector2d& p) {
-  double nearest = 1e9;
-  for (const LandmarkEstimate& landmark : snapshot.landmarks)
-    nearest = std::min(nearest, (landmark.position_m.head<2>() - p).norm());
-  return nearest;
 }
 
 TEST(FastSlamUnnamed, FindsEveryLandmarkOnceAmongClutter) {
@@ -159,13 +133,7 @@ TEST(FastSlamUnnamed, ASteadyStateStepAllocatesNothing) {
   CircleWorld world(8);
   FastSlam filter = make_filter(world, 300, 2);
   drive(filter, world, 200);
-  RandomStream random(3, StreamPurpose::kSimulation);
-  std::vector<std::pair<Motion, std::vector<Observation>>> steps;
-  for (int i = 0; i < 50; ++i) {
-    const Motion motion = world.move();
-    steps.emplace_back(motion, unnamed(world.look()));
-    if (i % 2 == 0) steps.back().second.push_back(clutter(random));
-  }
+  const test::Steps steps = test::cluttered_steps(world, 50, 3);
   int added = 0;
   const test::AllocationCount count;
   for (const auto& [motion, scan] : steps) {

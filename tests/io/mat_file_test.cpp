@@ -28,6 +28,28 @@ TEST(MatFile, ReadsPlainAndCompressedMatricesColumnByColumn) {
   EXPECT_EQ(file->matrix("some_name", 2, "").value(), b);
 }
 
+TEST(MatFile, ReadsVectorsThatStandOrLieAndCells) {
+  const TempFolder folder;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(2, 3);
+  const std::vector<Eigen::MatrixXd> cells{a, Eigen::MatrixXd::Zero(2, 0)};
+  const auto file =
+      MatFile::open(folder.write("x.mat", test::mat_header() + test::mat_variable("a", a) +
+                                              test::mat_variable("row", a.row(0)) +
+                                              test::mat_variable("column", a.col(0)) +
+                                              test::mat_compressed(test::mat_cells("cells", cells))))
+          .value();
+  EXPECT_EQ(file.names(), "a, column, row, cells");
+  EXPECT_TRUE(file.has("cells"));
+  EXPECT_EQ(file.transposed("a", 2, "").value(), a.transpose());
+  EXPECT_EQ(file.vector("row", "").value(), a.row(0).transpose());
+  EXPECT_EQ(file.vector("column", "").value(), a.col(0));
+  EXPECT_THAT(file.vector("a", "m").error().message, HasSubstr("variable a has 3 columns; expected 1 (m)"));
+  EXPECT_EQ(file.cells("cells", 2, "").value(), cells);
+  EXPECT_THAT(file.cells("cells", 3, "x, y, z").error().message,
+              HasSubstr("variable cells: cell 1 has 2 rows; expected 3 (x, y, z)"));
+  EXPECT_THAT(file.cells("a", 2, "x, y").error().message, HasSubstr("variable a (x, y) is missing"));
+}
+
 TEST(MatFile, WrongShapesAndValuesAreNamed) {
   const TempFolder folder;
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(4, 2);
@@ -72,6 +94,7 @@ TEST(MatFile, FlippedBitOfCompressedDataIsFoundOrChangesNothing) {
 TEST(MatFile, NoFlippedByteOfAnUncompressedFileIsFatal) {
   const TempFolder folder;
   const std::string bytes = test::mat_header() + test::mat_variable("GT", Eigen::MatrixXd::Random(2, 4)) +
+                            test::mat_cells("zt", {Eigen::MatrixXd::Random(1, 2)}) +
                             test::mat_variable("d", Eigen::MatrixXd::Random(1, 1));
   int readable = 0;
   for (std::size_t byte = 116; byte < bytes.size(); ++byte) {

@@ -68,7 +68,26 @@ TEST(MatStructure, SizesMustAgreeWithTheContent) {
   EXPECT_THAT(error_of(test::mat_header() + variable), HasSubstr("variable GT"));
 }
 
-TEST(MatStructure, TextCellsAndComplexNumbersAreRefused) {
+TEST(MatStructure, CellsArePlainMatricesWithoutNames) {
+  const std::string cells = test::mat_cells("zt", {kValues, Eigen::MatrixXd::Zero(3, 0)});
+  EXPECT_EQ(error_of(test::mat_header() + cells), "");
+  EXPECT_EQ(error_of(test::mat_header() + test::mat_compressed(cells)), "");
+  constexpr std::size_t kColumns = 8 + 16 + 8 + 4;
+  std::string fewer = cells;
+  fewer[kColumns] = 1;
+  EXPECT_THAT(error_of(test::mat_header() + fewer),
+              HasSubstr("variable zt with another number of cells than it claims"));
+  constexpr std::size_t kFirstCell = 8 + 16 + 16 + 16;
+  std::string broken = cells;
+  broken[kFirstCell + 8 + 8] = 4;  // class char
+  EXPECT_THAT(error_of(test::mat_header() + broken),
+              HasSubstr("variable zt with a cell which is no plain matrix"));
+  broken = cells;
+  broken[kFirstCell] = 9;
+  EXPECT_THAT(error_of(test::mat_header() + broken), HasSubstr("variable zt with a cell that is no matrix"));
+}
+
+TEST(MatStructure, TextAndComplexNumbersAreRefused) {
   constexpr std::size_t kFlags = 8 + 8;
   std::string variable = test::mat_variable("names", kValues);
   variable[kFlags] = 4;  // class char
@@ -81,7 +100,8 @@ TEST(MatStructure, TextCellsAndComplexNumbersAreRefused) {
 
 TEST(MatStructure, EveryTruncationIsFound) {
   const std::string variable = test::mat_variable("GT", Eigen::MatrixXd::Random(5, 4));
-  for (const std::string& content : {variable, test::mat_compressed(variable)}) {
+  const std::string cells = test::mat_cells("zt", {kValues, Eigen::MatrixXd::Random(2, 2)});
+  for (const std::string& content : {variable, cells, test::mat_compressed(variable)}) {
     const std::string file = test::mat_header() + content;
     for (std::size_t size = 0; size < file.size(); ++size) {
       if (size == test::mat_header().size()) continue;  // a file without variables

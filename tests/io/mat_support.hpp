@@ -44,6 +44,16 @@ inline std::string mat_variable(std::string_view name, const Eigen::MatrixXd& va
                              mat_element(1, name) + mat_element(9, bytes_of(values.data(), size)));
 }
 
+/// A row of cells, each a matrix of doubles.
+inline std::string mat_cells(std::string_view name, const std::vector<Eigen::MatrixXd>& cells) {
+  const std::uint32_t flags[2] = {1, 0};
+  const std::int32_t dimensions[2] = {1, static_cast<std::int32_t>(cells.size())};
+  std::string inner =
+      mat_element(6, bytes_of(flags, 8)) + mat_element(5, bytes_of(dimensions, 8)) + mat_element(1, name);
+  for (const Eigen::MatrixXd& cell : cells) inner += mat_variable("", cell);
+  return mat_element(14, inner);
+}
+
 /// Any element as MATLAB compresses it.
 inline std::string mat_compressed(std::string_view element) {
   auto size = compressBound(static_cast<uLong>(element.size()));

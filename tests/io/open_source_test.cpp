@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "support/data_dir.hpp"
+
 #include "io_support.hpp"
 #include "mat_support.hpp"
 
@@ -35,9 +37,8 @@ TEST(OpenSource, RecognisesMatFilesByTheirVariablesAndChoosesTheRun) {
   const std::string other = test::mat_header() + test::mat_variable("other", Eigen::MatrixXd::Zero(1, 1));
   const auto first = folder.write("a.mat", other);
   folder.write("b.mat", "damaged");
-  EXPECT_THAT(
-      open_source(first).error().message,
-      HasSubstr("a.mat is no log: expected the variables of Plaza (GT, DR, TD) or lost-in-the-woods"));
+  EXPECT_THAT(open_source(first).error().message,
+              HasSubstr("a.mat is no log: expected the variables of Plaza (GT, DR, TD), lost-in-the-woods"));
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("a.mat is no log"));
   EXPECT_THAT(open_source(folder.path(), {.run = 2}).error().message,
               HasSubstr("b.mat: is no MATLAB file that can be read"));
@@ -67,6 +68,14 @@ TEST(OpenSource, RecognisesPlanarMonoSlam) {
   folder.write("camera.dat", "no camera");
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("camera.dat:1: expected a line"));
   EXPECT_THAT(open_source(folder.path() / "world.dat").error().message, HasSubstr("give its folder"));
+}
+
+TEST(OpenSource, RecognisesTheLogsOfTheVehicle) {
+  for (const char* name : {"victoria-park", "victoria-park/victoria_park.txt", "car-park"}) {
+    WAYMARK_REQUIRE_DATA(name);
+    const auto source = open_source(test::data_path(name));
+    EXPECT_TRUE(source.ok()) << source.error().message;
+  }
 }
 
 TEST(OpenSource, LogFolderWithoutLogYamlIsStillMeantAsOne) {

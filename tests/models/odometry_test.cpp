@@ -21,7 +21,7 @@ using test::to_vector;
 constexpr WheelGeometry kWheels{0.05, 0.052, 0.3};
 constexpr ArcModel kArcModels[] = {ArcModel::kExact, ArcModel::kArticle};
 
-OdometryNoise no_noise() { return {0.0, 0.0, 0.0, 0.0, 0.0}; }
+OdometryNoise no_noise() { return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}; }
 
 OdometryOptions with_noise(const OdometryNoise& noise) {
   OdometryOptions options;
@@ -291,6 +291,74 @@ TEST(VelocityMotion, GoesInwardFromThePointWhoseSpeedIsReported) {
       << "around a point beside it the robot turns on the spot";
 }
 
+constexpr CarGeometry kCar{2.83, 0.76};
+
+OdometryOptions car_with_noise(const OdometryNoise& noise) {
+  OdometryOptions options = with_noise(noise);
+  options.car = kCar;
+  return options;
+}
+
+TEST(CarStep, TurnsAboutThePointWhereTheAxlesMeet) {
+  // The rear axle's middle goes on a circle of radius L / tan(steer), the wheel H left of it on R - H.
+  for (const double steer_rad : {0.5, 0.03, -0.4}) {
+    const double radius_m = kCar.wheel_base_m / std::tan(steer_rad);
+    const ArcStep step = car_step(0.4 * std::abs(radius_m - kCar.encoder_offset_m), steer_rad, kCar);
+    EXPECT_NEAR(step.turn_rad, std::copysign(0.4, steer_rad), 1e-12);
+    EXPECT_NEAR(step.distance_m, 0.4 * std::abs(radius_m), 1e-12);
+  }
+  EXPECT_EQ(car_step(-0.7, 0.0, kCar).distance_m, -0.7);
+  EXPECT_EQ(car_step(-0.7, 0.0, kCar).turn_rad, 0.0);
+}
+
+TEST(CarJacobian, AgreesWithCentralDifferences) {
+  RandomStream random(5, StreamPurpose::kWorld);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector2d input(random.uniform(-3.0, 3.0), random.uniform(-0.7, 0.7));
+    const auto step = [](const Eigen::Vector2d& v) -> Eigen::Vector2d {
+      const ArcStep s = car_step(v.x(), v.y(), kCar);
+      return {s.distance_m, s.turn_rad};
+    };
+    EXPECT_TRUE(matrix_near(car_jacobian(input.x(), input.y(), kCar), numeric_jacobian(step, input), 1e-8));
+  }
+}
+
+TEST(SteeringMotion, CarriesTheErrorsOfSpeedAndSteeringThroughTheNumericJacobian) {
+  OdometryNoise noise = no_noise();
+  noise.wheel_var_m2_per_m = 3e-3;
+  noise.steer_var_rad2_m = 2e-4;
+  OdometryOptions options = car_with_noise(noise);
+  options.speed_scale = 1.1;
+  options.turn_scale = 0.8;
+  RandomStream random(6, StreamPurpose::kWorld);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector2d input(random.uniform(-8.0, 8.0), random.uniform(-0.6, 0.6));
+    const double dt_s = random.uniform(0.01, 0.2);
+    const Motion motion = steering_motion({input.x(), input.y()}, dt_s, options);
+    const auto increment = [&](const Eigen::Vector2d& v) {
+      return difference(steering_motion({v.x(), v.y()}, dt_s, options).increment, motion.increment);
+    };
+    const Eigen::Matrix<double, 3, 2> J = numeric_jacobian(increment, input);
+    const double rolled_m = std::abs(input.x()) * dt_s;
+    const Eigen::Vector2d variances(3e-3 * rolled_m / (dt_s * dt_s), 2e-4 / rolled_m);
+    EXPECT_TRUE(matrix_near(motion.covariance, J * variances.asDiagonal() * J.transpose(), 1e-8));
+  }
+}
+
+TEST(SteeringMotion, HeadingVarianceDoesNotDependOnTheNumberOfSteps) {
+  const OdometryOptions options = car_with_noise({});
+  for (const Steering steering : {Steering{3.0, 0.0}, Steering{-2.0, 0.4}, Steering{5.0, -0.2}}) {
+    Motion many;
+    for (int i = 0; i < 50; ++i) many = compose(many, steering_motion(steering, 0.02, options));
+    EXPECT_NEAR(many.covariance(2, 2), steering_motion(steering, 1.0, options).covariance(2, 2), 1e-12);
+  }
+}
+
+TEST(SteeringMotion, ACarThatStandsIsStillHoweverItSteers) {
+  EXPECT_TRUE(is_still(steering_motion({0.0, 0.5}, 10.0, car_with_noise({}))));
+  EXPECT_TRUE(is_still(steering_motion({3.0, 0.5}, 0.0, car_with_noise({}))));
+}
+
 TEST(OdometryPoseMotion, DoesNotDependOnTheOdometryFrame) {
   const OdometryOptions options = with_noise({});
   RandomStream random(2, StreamPurpose::kWorld);
@@ -316,6 +384,11 @@ TEST(CheckWheels, NamesTheKeyThatIsMissing) {
   EXPECT_TRUE(check({0.0, 0.1, 0.3}).error().message.starts_with("wheels.left_radius_m "));
   EXPECT_TRUE(check({0.1, 0.0, 0.3}).error().message.starts_with("wheels.right_radius_m "));
   EXPECT_TRUE(check({0.1, 0.1, std::nan("")}).error().message.starts_with("wheels.track_m "));
+}
+
+TEST(CheckCar, NamesTheKeyThatIsMissing) {
+  EXPECT_TRUE(check(kCar).ok());
+  EXPECT_TRUE(check(CarGeometry{}).error().message.starts_with("car.wheel_base_m "));
 }
 
 TEST(OdometryOptions, DescribeTheirKeys) {

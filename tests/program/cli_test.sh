@@ -42,8 +42,9 @@ refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --obser
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
 refuses 2 'observe' run sim:square -o o --observe bearing
-refuses 2 'filter=fastslam' run sim:forest -o o
-refuses 2 'known or ml' run sim:forest -o o --associate jcbb
+refuses 2 'known, nearest, jcbb or ml' run sim:forest -o o --associate guess
+refuses 2 'the EKF takes known, nearest or jcbb' run sim:forest -o o --associate ml
+refuses 2 'FastSLAM takes known or ml' run sim:forest -o o --filter fastslam --associate jcbb
 refuses 2 'nowhere.yaml' run sim:square -o o --config nowhere.yaml
 printf 'ekf:\n  capacity: -3\n' >bad.yaml
 refuses 2 'bad.yaml:2' config --validate bad.yaml
@@ -65,10 +66,12 @@ does sim square -o log --seed 3
 does check log
 grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to run'
 does check sim:forest
-grep -q 'run: waymark run sim:forest -o out --filter fastslam' out.txt || fail 'check advises a filter that needs identities'
+grep -q 'run: waymark run sim:forest -o out' out.txt || fail 'check names no command for a log without identities'
 does sim forest -o forest --set sim.laps=1
 does run forest --filter fastslam -o unnamed --json
 grep -q '"associate": "ml"' out.txt || fail 'a log folder without identities is not associated'
+does run forest -o unnamed --json
+grep -q '"associate": "jcbb"' out.txt || fail 'a log folder without identities is not associated by the EKF'
 does run log -o whole
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"

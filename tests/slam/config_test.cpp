@@ -66,7 +66,9 @@ TEST(Config, ALogWithoutIdentitiesAsksForAssociationUnlessTheUserSaysOtherwise) 
     const auto opened = open_input("sim:forest", {{}, assignments});
     return opened.ok() ? std::optional(opened->config.associate) : std::nullopt;
   };
-  EXPECT_EQ(associate({}), Association::kMl);
+  EXPECT_EQ(associate({}), Association::kJcbb);
+  EXPECT_EQ(associate({"filter=fastslam"}), Association::kMl);
+  EXPECT_EQ(associate({"associate=nearest"}), Association::kNearest);
   EXPECT_EQ(associate({"sim.identities=true"}), Association::kKnown);
   EXPECT_EQ(associate({"associate=known"}), Association::kKnown);
 }

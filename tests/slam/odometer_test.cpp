@@ -36,6 +36,17 @@ TEST(Odometer, HoldsTheLastVelocity) {
   EXPECT_NEAR(odometer.advance(at(3.0), nullptr).increment.x_m, 1.0, 1e-12);
 }
 
+TEST(Odometer, HoldsTheLastSpeedAndSteeringAngle) {
+  OdometryOptions options;
+  options.car = {2.0, 0.5};
+  Odometer odometer(options, 10.0);
+  (void)odometer.advance(at(1.0), nullptr);
+  EXPECT_TRUE(odometer.add({at(1.0), Steering{0.5, 0.3}}));
+  const std::vector<Motion> motions{odometer.advance(at(1.5), nullptr), odometer.advance(at(3.0), nullptr)};
+  const Pose2 whole = steering_motion({0.5, 0.3}, 2.0, options).increment;
+  EXPECT_TRUE(test::matrix_near(test::to_vector(sum(motions)), test::to_vector(whole), 1e-12));
+}
+
 TEST(Odometer, StandsStillInAGapLongerThanTheHoldAndCountsIt) {
   Odometer odometer({}, 2.0);
   (void)odometer.advance(at(0.0), nullptr);

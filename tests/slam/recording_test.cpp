@@ -88,6 +88,14 @@ TEST(MakeFilter, RefusesAnAssociationThatDoesNotFit) {
   const auto range = record_study({"associate=ml", "filter=fastslam", "observe=range"});
   ASSERT_FALSE(range.ok());
   EXPECT_NE(range.error().message.find("associate=known"), std::string::npos) << range.error().message;
+  for (const std::string associate : {"nearest", "jcbb"}) {
+    const auto fastslam = record_study({"associate=" + associate, "filter=fastslam"});
+    ASSERT_FALSE(fastslam.ok());
+    EXPECT_NE(fastslam.error().message.find("filter=ekf"), std::string::npos) << fastslam.error().message;
+    const auto pixels = record_study({"associate=" + associate, "observe=pixel"});
+    ASSERT_FALSE(pixels.ok());
+    EXPECT_NE(pixels.error().message.find("associate=known"), std::string::npos) << pixels.error().message;
+  }
 }
 
 TEST(MakeFilter, SaysThatParticlesTakeNoPixels) {

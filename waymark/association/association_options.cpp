@@ -25,6 +25,9 @@ void describe(Schema& schema, AssociationOptions& o) {
               "log-odds of existence from which a landmark counts in the map");
   schema.real("association.most_log_odds", o.most_log_odds, {0.0, 1e3},
               "largest log-odds of existence: how many misses in a row delete a landmark");
+  schema.integer("association.most_pairings", o.most_pairings, {1, 1000000},
+                 "pairs of sighting and landmark that associate=jcbb tries per scan before it takes the best "
+                 "hypothesis so far");
 }
 
 AssociationModel::AssociationModel(const AssociationOptions& options, const LandmarkSensor& sensor)

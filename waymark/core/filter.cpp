@@ -16,6 +16,8 @@ const char* describe(Outcome outcome) {
       return "without identity";
     case Outcome::kUnusable:
       return "unusable";
+    case Outcome::kAmbiguous:
+      return "ambiguous";
     case Outcome::kDuplicate:
       return "seen twice in one scan";
     case Outcome::kMapFull:

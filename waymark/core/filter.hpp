@@ -18,6 +18,7 @@ enum class Outcome : std::uint8_t {
   kGated,         ///< too far from where its landmark was expected: a misread identity or a wild measurement
   kUnidentified,  ///< carries no identity, and this filter was told that identities are known
   kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
+  kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
   kDuplicate,  ///< a second sighting of one landmark in one scan
   kMapFull,    ///< would have been a new landmark, but there is no room
 };

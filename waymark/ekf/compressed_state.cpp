@@ -65,6 +65,7 @@ int CompressedState::limit() const {
 
 void CompressedState::predict(const Motion& motion) {
   active_.predict(motion);
+  step_began_ = now_;
   seen_this_step_ = 0;
 }
 
@@ -86,7 +87,10 @@ bool CompressedState::update(std::span<const Sighting> sightings) {
 
 bool CompressedState::propose(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
-  if (!std::exchange(proposed_, true)) count(sightings);
+  if (!std::exchange(proposed_, true)) {
+    ++now_;
+    for (const Sighting& sighting : sightings) count(sighting.landmark);
+  }
   bring_in(sightings);
   join();
   proposed_ = active_.propose(local_sightings_);
@@ -103,21 +107,32 @@ void CompressedState::accept() {
   work();
 }
 
-/// What is proposed again counts once.
-void CompressedState::count(std::span<const Sighting> sightings) {
-  ++now_;
-  seen_this_step_ += static_cast<int>(sightings.size());
+/// What is proposed again in a step counts once.
+void CompressedState::count(int landmark) {
+  const bool again = is_active(landmark) && seen_[static_cast<std::size_t>(local_of(landmark))] > step_began_;
+  seen_this_step_ += again ? 0 : 1;
   most_seen_ = std::max(most_seen_, seen_this_step_);
+}
+
+void CompressedState::consider(std::span<const int> landmarks) {
+  ++now_;
+  for (const int landmark : landmarks) count(landmark);
+  for (const int landmark : landmarks) mark_seen(landmark);
+  for (const int landmark : landmarks)
+    if (!is_active(landmark)) activate(slot_of(landmark));
+}
+
+void CompressedState::mark_seen(int landmark) {
+  if (is_active(landmark)) seen_[static_cast<std::size_t>(local_of(landmark))] = now_;
 }
 
 /// All that is sighted enters the region, and the sightings get its indices.
 void CompressedState::bring_in(std::span<const Sighting> sightings) {
-  for (const Sighting& sighting : sightings)
-    if (is_active(sighting.landmark)) seen_[static_cast<std::size_t>(local_of(sighting.landmark))] = now_;
+  for (const Sighting& sighting : sightings) mark_seen(sighting.landmark);
   for (const Sighting& sighting : sightings)
     if (!is_active(sighting.landmark)) activate(slot_of(sighting.landmark));
   local_sightings_.assign(sightings.begin(), sightings.end());
-  for (Sighting& sighting : local_sightings_) sighting.landmark = local_of(sighting.landmark);
+  for (Sighting& sighting : local_sightings_) sighting = in_active(sighting);
 }
 
 /// An even share; and more if more work than room is left, halfway through the region and later, so that none
@@ -289,6 +304,7 @@ Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
 Sighting CompressedState::in_active(const Sighting& sighting) const {
   Sighting local = sighting;
   local.landmark = local_of(sighting.landmark);
+  if (sighting.anchor >= 0) local.anchor = local_of(sighting.anchor);
   return local;
 }
 

@@ -57,7 +57,14 @@ class CompressedState {
   void relax_errors(int pair, double rho);
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
   [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
+  /// Brings landmarks, each named once, into the region: they may have been seen. No more than a third of it.
+  void consider(std::span<const int> landmarks);
+  /// Of landmarks in the region.
+  [[nodiscard]] Eigen::Matrix2d common_covariance(const Sighting& a, const Sighting& b) const {
+    return active_.common_covariance(in_active(a), in_active(b));
+  }
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
+  /// The anchor of a sighting, if any, must be in the region.
   [[nodiscard]] bool propose(std::span<const Sighting> sightings);
   void accept();
   /// Of sighted landmarks only.
@@ -117,7 +124,8 @@ class CompressedState {
   void leave(int local);
   [[nodiscard]] int take_slot();
   void join();
-  void count(std::span<const Sighting> sightings);
+  void count(int landmark);
+  void mark_seen(int landmark);
   void bring_in(std::span<const Sighting> sightings);
   void work();
 
@@ -138,6 +146,7 @@ class CompressedState {
   std::vector<Clock> ranked_;  // scratch
 
   Clock now_ = 0;
+  Clock step_began_ = 0;
   int seen_this_step_ = 0;
   int most_seen_ = 0;          // in one step of this region
   int room_ = 0;               // when the region was opened

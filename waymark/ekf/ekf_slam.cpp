@@ -74,7 +74,7 @@ ekf::Compression compression(const EkfOptions& options) {
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
-                 const SensorErrors& errors)
+                 const SensorErrors& errors, const std::optional<ekf::UnnamedOptions>& unnamed)
     : errors_(errors),
       state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
       options_(options),
@@ -82,6 +82,7 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
       T_robot_sensor_(T_robot_sensor),
       index_(static_cast<std::size_t>(options.capacity)),
       management_(options.evict, options.capacity) {
+  if (unnamed) unnamed_.emplace(*unnamed, gate);
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
   removed_.reserve(static_cast<std::size_t>(options.capacity));
   sightings_.reserve(ekf::CompressedState::kMaxSightings);
@@ -96,6 +97,7 @@ void EkfSlam::predict(const Motion& motion) {
   if (!is_still(motion) && is_finite(motion)) {
     state_.predict(motion);
     errors_.drive(way_m(motion));
+    way_m_ += way_m(motion);
   }
   timer.finish(kPredict);
 }
@@ -105,9 +107,16 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
   if (is_lost()) widen(observations);
+  if (unnamed_) match_unnamed(observations);
   timer.finish(kAssociate);
   update(observations);
   timer.finish(kEstimate);
+  if (unnamed_) {
+    settle_leftovers(observations);
+    update_existence();
+    merge_duplicates();
+    forget_ghosts();
+  }
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
   timer.finish(kAdd);
@@ -117,6 +126,7 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
 
 void EkfSlam::prepare(std::size_t count) {
   innovations_.assign(count, {});
+  matched_.assign(count, -1);
   removed_.clear();
   management_.begin_scan();
   errors_.begin_scan();
@@ -146,6 +156,7 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
     innovation.outcome = Outcome::kAdded;  // if add() finds room
     return;
   }
+  matched_[index] = *landmark;
   compare(innovation, linearize(*landmark, observation));
 }
 
@@ -197,7 +208,7 @@ void EkfSlam::widen(std::span<const Observation> observations) {
     slip.covariance *= 4.0;
     for (std::size_t i = 0; i < observations.size(); ++i)
       if (innovations_[i].outcome == Outcome::kGated)
-        compare(innovations_[i], linearize(*index_.find(innovations_[i].landmark), observations[i]));
+        compare(innovations_[i], linearize(matched_[i], observations[i]));
   }
 }
 
@@ -208,7 +219,7 @@ std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const Observation&
   auto sighting = sight(std::get<RangeBearing>(observation.value), here, at);
   if (!sighting) return std::nullopt;
   const double range_m = (here.p_world.head<2>() - here.T_world_robot.position()).norm();
-  const ekf::SightingError error = errors_.of(*observation.id, range_m);
+  const ekf::SightingError error = errors_.of(landmarks_[static_cast<std::size_t>(landmark)].id, range_m);
   sighting->landmark = landmark;
   sighting->errors = error.terms;
   sighting->nu -= state_.expected(error.terms);
@@ -255,7 +266,7 @@ void EkfSlam::update(std::span<const Observation> observations) {
     if (done) state_.accept();
     for (const std::size_t i : seen_) {
       if (done)
-        ++landmarks_[static_cast<std::size_t>(*index_.find(innovations_[i].landmark))].observations;
+        ++landmarks_[static_cast<std::size_t>(matched_[i])].observations;
       else
         innovations_[i].outcome = Outcome::kUnusable;
     }
@@ -263,7 +274,7 @@ void EkfSlam::update(std::span<const Observation> observations) {
 }
 
 void EkfSlam::collect(std::size_t index, const Observation& observation) {
-  const auto sighting = linearize(*index_.find(innovations_[index].landmark), observation);
+  const auto sighting = linearize(matched_[index], observation);
   if (!sighting) {
     innovations_[index].outcome = Outcome::kUnusable;
     return;
@@ -321,14 +332,15 @@ bool EkfSlam::make_room() {
 }
 
 void EkfSlam::remove(int landmark) {
-  const LandmarkId id = landmarks_[static_cast<std::size_t>(landmark)].id;
+  const Landmark gone = landmarks_[static_cast<std::size_t>(landmark)];
+  const Landmark& last = landmarks_.back();
   state_.remove(landmark);
   management_.removed(landmark);
-  landmarks_[static_cast<std::size_t>(landmark)] = landmarks_.back();
-  index_.assign(landmarks_.back().id, landmark);
-  index_.erase(id);
+  if (!last.existence) index_.assign(last.id, landmark);
+  landmarks_[static_cast<std::size_t>(landmark)] = last;
   landmarks_.pop_back();
-  removed_.push_back(id);
+  if (!gone.existence) index_.erase(gone.id);
+  if (is_in_map(gone)) removed_.push_back(gone.id);
 }
 
 void EkfSlam::add(std::size_t index, const Observation& observation) {
@@ -336,8 +348,10 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
     innovations_[index].outcome = Outcome::kMapFull;
     return;
   }
+  if (!observation.id) name(innovations_[index]);
+  const LandmarkId id = innovations_[index].landmark;
   const auto& z = std::get<RangeBearing>(observation.value);
-  ekf::SightingError error = errors_.of(*observation.id, z.range_m);
+  ekf::SightingError error = errors_.of(id, z.range_m);
   const Eigen::Vector2d expected_error = state_.expected(error.terms);
   const auto inverse = RangeBearingModel::locate(
       state_.pose().T_world_robot, T_robot_sensor_,
@@ -350,15 +364,21 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
   noise.topLeftCorner<2, 2>() = G * (*observation.covariance + error.unmodelled) * G.transpose();
   for (ekf::ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
-  index_.assign(*observation.id, state_.add(position, G_pose, noise, error.terms));
-  landmarks_.push_back({*observation.id, 1});
+  const int landmark = state_.add(position, G_pose, noise, error.terms);
   management_.added();
+  landmarks_.push_back({.id = id, .observations = 1, .seen_at_way_m = way_m_, .place_m = inverse.p_world});
+  if (observation.id)
+    index_.assign(id, landmark);
+  else
+    landmarks_.back().existence.emplace();
+  if (unnamed_) note_sigma(landmark);
 }
 
 Snapshot EkfSlam::snapshot() const {
   Snapshot snapshot{{}, state_.pose(), {}};
   for (int i = 0; i < state_.landmarks(); ++i) {
     const Landmark& landmark = landmarks_[static_cast<std::size_t>(i)];
+    if (!is_in_map(landmark)) continue;
     snapshot.landmarks.push_back(
         {landmark.id, state_.landmark(i), state_.landmark_covariance(i), landmark.observations});
   }
@@ -369,13 +389,17 @@ MapState EkfSlam::save() const {
   MapState map;
   map.landmark_dimension = state_.dimension();
   map.T_world_robot = state_.pose().T_world_robot;
-  for (const Landmark& landmark : landmarks_) {
+  std::vector<Eigen::Index> rows{0, 1, 2};
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const Landmark& landmark = landmarks_[i];
+    if (!is_in_map(landmark)) continue;
     map.ids.push_back(landmark.id);
     map.observations.push_back(landmark.observations);
+    const auto first = static_cast<Eigen::Index>(3 + 2 * i);
+    rows.insert(rows.end(), {first, first + 1});
   }
-  const Eigen::VectorXd mean = state_.mean();
-  map.landmarks = mean.tail(mean.size() - 3);
-  map.covariance = state_.covariance();
+  map.landmarks = Eigen::VectorXd(state_.mean()(rows)).tail(static_cast<Eigen::Index>(rows.size()) - 3);
+  map.covariance = state_.covariance()(rows, rows);
   return map;
 }
 

@@ -3,8 +3,13 @@
 #include <optional>
 #include <vector>
 
+#include "waymark/association/association_options.hpp"
+#include "waymark/association/exclusive_match.hpp"
+#include "waymark/association/existence.hpp"
 #include "waymark/association/gate.hpp"
+#include "waymark/association/grid_index.hpp"
 #include "waymark/association/id_index.hpp"
+#include "waymark/association/joint_match.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
@@ -48,13 +53,29 @@ struct EkfOptions {
 
 void describe(Schema& schema, EkfOptions& options);
 
-/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks with known
-/// identities, gated one by one; a first sighting adds its landmark, in the place of the least useful one
-/// when the map is full.
+namespace ekf {
+
+/// What is done with sightings that do not say which landmark they are of.
+struct UnnamedOptions {
+  bool jointly = true;  ///< matched by what they say together (JointMatch), or pair by pair (ExclusiveMatch)
+  AssociationOptions association;
+  LandmarkSensor sensor;  ///< what it should have seen
+};
+
+}  // namespace ekf
+
+/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks, gated one by one;
+/// a first sighting adds its landmark, in the place of the least useful one when the map is full.
+///
+/// Sightings without identity are refused, or, with UnnamedOptions, matched with landmarks that are likely.
+/// One that is left over begins a landmark if it is outside of the gates of all landmarks even after the
+/// others have corrected the state; in between it is ambiguous and not used. A landmark that was begun so is
+/// tentative, in the state but not in the map, until its Existence is confirmed; ghosts are removed, and two
+/// landmarks that turn out to be one are merged.
 class EkfSlam final : public Filter {
  public:
   EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1,
-          const SensorErrors& errors = {});
+          const SensorErrors& errors = {}, const std::optional<ekf::UnnamedOptions>& unnamed = {});
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -66,11 +87,52 @@ class EkfSlam final : public Filter {
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
   /// How often the robot must have slipped far beyond its odometry: see correct().
   [[nodiscard]] int slips() const { return slips_; }
+  /// Pairs of landmarks that turned out to be one.
+  [[nodiscard]] int merges() const { return merges_; }
 
  private:
   struct Landmark {
     LandmarkId id;
     int observations = 0;
+    std::optional<Existence> existence = {};  ///< of one that was met without a name
+    double seen_at_way_m = 0.0;
+    int claimed_at_scan = 0;  ///< by a sighting without a name
+    double sigma_m = 0.0;     ///< its position's when it was last seen: later it is no more
+    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< as it was last asked for
+  };
+
+  /// A sighting without a name that may be of a landmark.
+  struct Candidate {
+    int observation = 0;
+    double cost = 0.0;  ///< -2 log-likelihood, but for a constant
+    double nis = 0.0;
+    Eigen::Matrix2d S;
+    ekf::Sighting sighting;
+  };
+
+  /// What only sightings without a name need.
+  struct Unnamed {
+    Unnamed(const ekf::UnnamedOptions& options, const GateOptions& gate);
+
+    AssociationModel model;
+    LandmarkSensor sensor;
+    bool jointly;
+    ExclusiveMatch exclusive;
+    JointMatch joint;
+    GridIndex grid;
+    std::vector<Eigen::Vector2d> places;  // of the landmarks, in grid
+    double sigma_m = 0.0;                 // largest of a landmark
+    std::vector<char> open;               // by observation: still without a landmark
+    std::vector<Candidate> candidates;
+    std::vector<int> considered;  // their landmarks
+    int scan = 0;
+    int next_number = 0;
+  };
+
+  struct Duplicate {
+    double score = 0.0;
+    int landmark = -1;
+    int twin = -1;
   };
 
   struct View {
@@ -99,6 +161,34 @@ class EkfSlam final : public Filter {
   void remove(int landmark);
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
+  [[nodiscard]] bool is_in_map(const Landmark& landmark) const {
+    return !landmark.existence || landmark.existence->is_confirmed();
+  }
+
+  // Of sightings without a name.
+  void match_unnamed(std::span<const Observation> observations);
+  void index_places();
+  [[nodiscard]] bool is_place_due(int landmark, const Eigen::Vector2d& p_sensor) const;
+  template <class Visit>
+  void visit_candidates(const Observation& observation, const Visit& visit) const;
+  [[nodiscard]] double reach_m(const Observation& observation) const;
+  void find_candidates(int index, const Observation& observation);
+  [[nodiscard]] bool consider(int landmark);
+  [[nodiscard]] double bonus(const Candidate& candidate, const Observation& observation) const;
+  void match_jointly(std::span<const Observation> observations);
+  void match_exclusively(std::span<const Observation> observations);
+  void take_match(const Candidate& candidate);
+  void settle_leftovers(std::span<const Observation> observations);
+  [[nodiscard]] bool is_near_a_landmark(const Observation& observation) const;
+  void update_existence();
+  [[nodiscard]] bool should_be_seen(int landmark) const;
+  void merge_duplicates();
+  void find_duplicates(int landmark, Duplicate& best);
+  [[nodiscard]] ekf::Sighting difference(int landmark, int twin) const;
+  void merge(const Duplicate& duplicate);
+  void forget_ghosts();
+  void name(Innovation& added);
+  void note_sigma(int landmark);
 
   ekf::LastingErrors errors_;
   ekf::CompressedState state_;
@@ -108,14 +198,18 @@ class EkfSlam final : public Filter {
   IdIndex index_;
   ekf::MapManagement management_;
   std::vector<Landmark> landmarks_;  // by index in the state
+  std::optional<Unnamed> unnamed_;
+  double way_m_ = 0.0;
   int gated_in_a_row_ = 0;
   int slips_ = 0;
+  int merges_ = 0;
+  std::vector<int> matched_;              // by observation: index of its landmark, or -1
   std::vector<Innovation> innovations_;   // one per observation of the last correct()
   std::vector<ekf::Sighting> sightings_;  // of one block of the update
   std::vector<Eigen::Matrix2d> noises_;   // their noise without heavy tails
   std::vector<ekf::Sighting> refined_;    // the same, linearised anew
   std::vector<std::size_t> seen_;         // their observations
-  std::vector<LandmarkId> removed_;       // by the last correct()
+  std::vector<LandmarkId> removed_;       // from the map by the last correct()
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};
 };

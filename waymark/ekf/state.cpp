@@ -155,13 +155,18 @@ Touched State::touched(const Sighting& sighting, int rows) const {
 }
 
 Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
-  const Touched t = touched(sighting, 2);
-  Eigen::Matrix2d S = sighting.R;
+  return common_covariance(sighting, sighting) + sighting.R;
+}
+
+Eigen::Matrix2d State::common_covariance(const Sighting& a, const Sighting& b) const {
+  const Touched t = touched(a, 2);
+  const Touched u = touched(b, 2);
+  Eigen::Matrix2d common = Eigen::Matrix2d::Zero();
   for (Eigen::Index i = 0; i < t.J.cols(); ++i)
-    for (Eigen::Index j = 0; j < t.J.cols(); ++j)
-      S += covariance(t.rows[static_cast<std::size_t>(i)], t.rows[static_cast<std::size_t>(j)]) * t.J.col(i) *
-           t.J.col(j).transpose();
-  return S;
+    for (Eigen::Index j = 0; j < u.J.cols(); ++j)
+      common += covariance(t.rows[static_cast<std::size_t>(i)], u.rows[static_cast<std::size_t>(j)]) *
+                t.J.col(i) * u.J.col(j).transpose();
+  return common;
 }
 
 Eigen::Matrix<double, 3, 2> State::pose_correlation(const Sighting& sighting) const {

@@ -107,6 +107,9 @@ class State {
   /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
 
+  /// H_a P H_b^T: what two sightings have in common besides their noise. O(1).
+  [[nodiscard]] Eigen::Matrix2d common_covariance(const Sighting& a, const Sighting& b) const;
+
   /// C = P(pose, :) H^T of one sighting: how what it measures goes with (x, y, theta). O(1).
   [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
 

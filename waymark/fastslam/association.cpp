@@ -101,8 +101,7 @@ double Association::log_weight(const Choice& choice) {
 }
 
 float Association::after_sighting(float log_odds) const {
-  if (log_odds < 0.0F) return 0.0F;
-  return std::min(static_cast<float>(model_.most()), log_odds + static_cast<float>(model_.seen()));
+  return static_cast<float>(model_.after_sighting(static_cast<double>(log_odds)));
 }
 
 Association::Support Association::support(const float* log_odds, const Particles& particles) const {

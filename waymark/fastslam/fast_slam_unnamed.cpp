@@ -13,8 +13,6 @@ namespace {
 
 using fastslam::Association;
 
-// A landmark that was never confirmed is given up after this way without a sighting.
-constexpr double kTentativeWay_m = 5.0;
 // Particles of so little weight together do not keep a landmark.
 constexpr double kLeastSupport = 0.01;
 

@@ -22,5 +22,7 @@ extern const KnownSettings kPlazaSettings;
 extern const KnownSettings kLostInTheWoodsSettings;
 extern const KnownSettings kUwbLabyrinthSettings;
 extern const KnownSettings kPlanarMonoSlamSettings;
+extern const KnownSettings kVictoriaParkSettings;
+extern const KnownSettings kCarParkSettings;
 
 }  // namespace waymark

@@ -46,6 +46,8 @@ inline constexpr std::array kSettings{
     Setting{"wheels.left_radius_m", "wheels.left_radius_m"},
     Setting{"wheels.right_radius_m", "wheels.right_radius_m"},
     Setting{"wheels.track_m", "wheels.track_m"},
+    Setting{"car.wheel_base_m", "car.wheel_base_m"},
+    Setting{"car.encoder_offset_m", "car.encoder_offset_m"},
     Setting{"landmark_sensor.x_m", "sensor.x_m"},
     Setting{"landmark_sensor.y_m", "sensor.y_m"},
     Setting{"landmark_sensor.yaw_deg", "sensor.yaw_deg"},

@@ -23,6 +23,7 @@ constexpr std::uint32_t kUint32 = 6;
 constexpr std::uint32_t kMatrix = 14;
 constexpr std::uint32_t kCompressed = 15;
 // Array class and the flag of an imaginary part.
+constexpr std::uint32_t kCellClass = 1;
 constexpr std::uint32_t kDoubleClass = 6;
 constexpr std::uint32_t kComplexFlag = 0x800;
 
@@ -86,24 +87,68 @@ bool is_name(std::string_view name) {
   return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, is_allowed);
 }
 
-/// The content of a matrix element; what is wrong with it, if anything.
-std::optional<std::string> fault_of_matrix(std::string_view rest) {
+/// What a matrix element begins with.
+struct ArrayHead {
+  std::uint32_t flags = 0;
+  std::string_view dimensions;
+  std::string_view name;
+
+  [[nodiscard]] std::uint32_t array_class() const { return flags & 0xFFU; }
+  [[nodiscard]] bool is_plane() const { return dimensions.size() == 8; }
+  [[nodiscard]] std::uint64_t count() const {
+    return std::uint64_t{word_at(dimensions, 0)} * word_at(dimensions, 4);
+  }
+};
+
+/// Takes it off the front of `rest`; what is wrong with it, if anything.
+std::optional<std::string> take_head(std::string_view& rest, ArrayHead& head) {
   const auto flags = take_element(rest);
   if (!flags || flags->type != kUint32 || flags->data.size() != 8) return "broken array flags";
   const auto dimensions = take_element(rest);
   if (!dimensions || dimensions->type != kInt32 || dimensions->data.size() < 8) return "broken dimensions";
   const auto name = take_element(rest);
-  if (!name || name->type != kInt8 || !is_name(name->data)) return "a broken name";
-  if ((word_at(flags->data, 0) & 0xFFU) != kDoubleClass || dimensions->data.size() != 8 ||
-      (word_at(flags->data, 0) & kComplexFlag) != 0)
-    return fmt::format("variable {}, which is no plain matrix of numbers", name->data);
-  const std::uint64_t count = std::uint64_t{word_at(dimensions->data, 0)} * word_at(dimensions->data, 4);
+  if (!name || name->type != kInt8) return "a broken name";
+  head = {word_at(flags->data, 0), dimensions->data, name->data};
+  return std::nullopt;
+}
+
+/// The numbers of a plain matrix: what is wrong with them, if anything.
+std::optional<std::string> fault_of_numbers(const ArrayHead& head, std::string_view rest) {
+  if (head.array_class() != kDoubleClass || !head.is_plane() || (head.flags & kComplexFlag) != 0)
+    return "which is no plain matrix of numbers";
   const auto numbers = take_element(rest);
   if (!numbers || number_bytes(numbers->type) == 0 ||
-      count != numbers->data.size() / number_bytes(numbers->type) ||
+      head.count() != numbers->data.size() / number_bytes(numbers->type) ||
       numbers->data.size() % number_bytes(numbers->type) != 0)
-    return fmt::format("variable {} with another number of values than it claims", name->data);
-  if (!rest.empty()) return fmt::format("variable {} with something behind its values", name->data);
+    return "with another number of values than it claims";
+  if (!rest.empty()) return "with something behind its values";
+  return std::nullopt;
+}
+
+/// The cells of a cell array: nameless plain matrices.
+std::optional<std::string> fault_of_cells(const ArrayHead& array, std::string_view rest) {
+  std::uint64_t count = 0;
+  for (; !rest.empty(); ++count) {
+    auto cell = take_element(rest);
+    if (!cell || cell->type != kMatrix) return "with a cell that is no matrix";
+    ArrayHead head;
+    if (auto fault = take_head(cell->data, head)) return "with a cell that has " + *fault;
+    if (!head.name.empty()) return "with a cell that has a name";
+    if (auto fault = fault_of_numbers(head, cell->data)) return "with a cell " + *fault;
+  }
+  if (!array.is_plane() || count != array.count()) return "with another number of cells than it claims";
+  return std::nullopt;
+}
+
+/// The content of a matrix element; what is wrong with it, if anything.
+std::optional<std::string> fault_of_matrix(std::string_view rest) {
+  ArrayHead head;
+  if (auto fault = take_head(rest, head)) return fault;
+  if (!is_name(head.name)) return "a broken name";
+  const auto fault =
+      head.array_class() == kCellClass ? fault_of_cells(head, rest) : fault_of_numbers(head, rest);
+  if (fault)
+    return fmt::format("variable {}{} {}", head.name, fault->starts_with("which") ? "," : "", *fault);
   return std::nullopt;
 }
 

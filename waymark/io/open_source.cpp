@@ -7,12 +7,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "waymark/io/car_park.hpp"
 #include "waymark/io/log_folder.hpp"
 #include "waymark/io/lost_in_the_woods.hpp"
 #include "waymark/io/mrclam.hpp"
 #include "waymark/io/planar_mono_slam.hpp"
 #include "waymark/io/plaza.hpp"
 #include "waymark/io/uwb_labyrinth.hpp"
+#include "waymark/io/victoria_park.hpp"
+#include "waymark/io/victoria_park_graph.hpp"
 
 namespace waymark {
 namespace {
@@ -36,10 +39,9 @@ std::string some_content(const fs::path& folder) {
 Error not_a_log(const fs::path& folder) {
   return {fmt::format(
       "{} is a directory but no log: expected log.yaml with wheels.csv, velocity.csv, steering.csv or "
-      "odometry.csv; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat file of Plaza or "
-      "lost-in-the-woods; or PlazaN_DR.txt with PlazaN_TD.txt; or Indoor_UWB_Input.txt; or camera.dat with "
-      "trajectory.dat and "
-      "world.dat; found {}",
+      "odometry.csv; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat file of Plaza, "
+      "lost-in-the-woods, Victoria Park or the car park; or PlazaN_DR.txt with PlazaN_TD.txt; or "
+      "Indoor_UWB_Input.txt; or camera.dat with trajectory.dat and world.dat; found {}",
       folder.string(), some_content(folder))};
 }
 
@@ -49,8 +51,8 @@ Error not_a_folder(const fs::path& file) {
       !plaza_text_runs(folder).empty())
     return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
   return {
-      fmt::format("{} is no log: expected a log folder, an MRCLAM directory, or a .mat file of Plaza or "
-                  "lost-in-the-woods",
+      fmt::format("{} is no log: expected a log folder, an MRCLAM directory, a .mat file of Plaza, "
+                  "lost-in-the-woods, Victoria Park or the car park, or Victoria Park's graph",
                   file.string())};
 }
 
@@ -70,9 +72,11 @@ Result<std::unique_ptr<Source>> open_mat_file(const fs::path& path, const InputO
   if (!file) return file.error();
   if (is_plaza(*file)) return open_plaza(*file, options.fix_known_errors);
   if (is_lost_in_the_woods(*file)) return open_lost_in_the_woods(*file);
+  if (is_victoria_park(*file)) return open_victoria_park(*file);
+  if (is_car_park(*file)) return open_car_park(*file);
   return Error{fmt::format(
-      "{} is no log: expected the variables of Plaza (GT, DR, TD) or lost-in-the-woods (t, v, om, r, b, "
-      "...); found {}",
+      "{} is no log: expected the variables of Plaza (GT, DR, TD), lost-in-the-woods (t, v, om, r, b, ...), "
+      "Victoria Park (zt, TLsr, u, time) or the car park (Laser, Intensity, Velocity, ...); found {}",
       path.string(), file->names().empty() ? "none" : file->names())};
 }
 
@@ -89,6 +93,8 @@ Result<std::unique_ptr<Source>> open_folder(const fs::path& folder, const InputO
   if (is_uwb_labyrinth(folder)) return open_uwb_labyrinth(folder);
   if (is_planar_mono_slam(folder))
     return open_planar_mono_slam(folder, {options.pixel_noise_px, options.seed});
+  for (const char* name : {kVictoriaParkLog, kCarParkLog})
+    if (fs::exists(folder / name)) return open_mat_file(folder / name, options);
   if (const auto files = mat_files(folder); !files.empty()) {
     const auto file = choose_run(folder, files, options.run);
     return file ? open_mat_file(*file, options) : file.error();
@@ -121,6 +127,7 @@ Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOpt
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
   if (fs::is_directory(status)) return open_folder(path, options);
   if (is_mat_file(path)) return open_mat_file(path, options);
+  if (is_victoria_park_graph(path)) return open_victoria_park_graph(path);
   return not_a_folder(path);
 }
 

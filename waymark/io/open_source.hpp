@@ -23,8 +23,8 @@ struct InputOptions {
 void describe(Schema& schema, InputOptions& options);
 
 /// Opens a recording of any known format, recognised by what it holds: a Waymark log folder, an MRCLAM
-/// dataset, the UWB labyrinth, planar-mono-slam, a Plaza run or lost-in-the-woods (the .mat file or its
-/// folder; Plaza also as text).
+/// dataset, the UWB labyrinth, planar-mono-slam, a Plaza run, lost-in-the-woods, Victoria Park or the car
+/// park (the .mat file or its folder; Plaza also as text, Victoria Park also as its graph).
 [[nodiscard]] Result<std::unique_ptr<Source>> open_source(const std::filesystem::path& path,
                                                           const InputOptions& options = {});
 

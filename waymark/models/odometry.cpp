@@ -45,6 +45,11 @@ void describe(Schema& schema, OdometryOptions& o) {
               "radius of the right wheel, m; 0: the log says");
   schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0},
               "distance between the wheels, m; 0: the log says");
+  schema.real(
+      "car.wheel_base_m", o.car.wheel_base_m, {0.0, 100.0},
+      "of a steered car: from the rear axle, where its origin is, to the front one, m; 0: the log says");
+  schema.real("car.encoder_offset_m", o.car.encoder_offset_m, {-10.0, 10.0},
+              "how far left of the middle the rear wheel is whose speed is measured, m");
   schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0},
               "error variance of each wheel per metre it rolls");
   schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0},
@@ -55,6 +60,8 @@ void describe(Schema& schema, OdometryOptions& o) {
               "turning error variance per radian turned");
   schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0},
               "turning error variance per metre driven");
+  schema.real("motion.steer_var_rad2_m", o.noise.steer_var_rad2_m, {0.0, 1.0},
+              "variance of a steering angle's error times the way on which one error lasts");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
   schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
@@ -79,6 +86,12 @@ Result<void> check(const WheelGeometry& wheels) {
   if (!(wheels.right_radius_m > 0.0)) return missing("wheels.right_radius_m");
   if (!(wheels.track_m > 0.0)) return missing("wheels.track_m");
   return {};
+}
+
+Result<void> check(const CarGeometry& car) {
+  if (car.wheel_base_m > 0.0) return {};
+  return Error{
+      "car.wheel_base_m is not known: give it in the log's log.yaml or with --set car.wheel_base_m=..."};
 }
 
 Pose2 arc_increment(const ArcStep& step, ArcModel model) {
@@ -126,6 +139,36 @@ Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options
   const Eigen::Matrix<double, 3, 2> V =
       arc_jacobian(step, options.arc) * scale.asDiagonal() * wheel_jacobian(wheels);
   const Eigen::Matrix3d Q = V * angle_var.asDiagonal() * V.transpose();
+  return {arc_increment(step, options.arc), Q + slip_covariance(step, options.noise, options.arc)};
+}
+
+ArcStep car_step(double rolled_m, double steer_rad, const CarGeometry& car) {
+  const double curvature_per_m = std::tan(steer_rad) / car.wheel_base_m;
+  const double distance_m = rolled_m / (1.0 - curvature_per_m * car.encoder_offset_m);
+  return {distance_m, distance_m * curvature_per_m};
+}
+
+Eigen::Matrix2d car_jacobian(double rolled_m, double steer_rad, const CarGeometry& car) {
+  const double t = std::tan(steer_rad);
+  const double curvature_per_m = t / car.wheel_base_m;
+  const double curvature_per_rad_m = (1.0 + t * t) / car.wheel_base_m;
+  const double ratio = 1.0 / (1.0 - curvature_per_m * car.encoder_offset_m);
+  const double steered_m = rolled_m * ratio * ratio * curvature_per_rad_m;
+  return Eigen::Matrix2d{{ratio, steered_m * car.encoder_offset_m}, {ratio * curvature_per_m, steered_m}};
+}
+
+Motion steering_motion(const Steering& steering, double dt_s, const OdometryOptions& options) {
+  constexpr double kStands_m = 1e-12;  // no step to spread an error over
+  const double rolled_m = steering.v_mps * dt_s;
+  if (std::abs(rolled_m) < kStands_m) return {};
+  const ArcStep step = scaled(car_step(rolled_m, steering.steer_rad, options.car), options);
+  const Eigen::Matrix2d J = Eigen::Vector2d(options.speed_scale, options.turn_scale).asDiagonal() *
+                            car_jacobian(rolled_m, steering.steer_rad, options.car);
+  // The mean over a step of an error that changes on the way: shorter steps see more of it.
+  const Eigen::Vector2d variances(options.noise.wheel_var_m2_per_m * std::abs(rolled_m),
+                                  options.noise.steer_var_rad2_m / std::abs(rolled_m));
+  const Eigen::Matrix<double, 3, 2> V = arc_jacobian(step, options.arc) * J;
+  const Eigen::Matrix3d Q = V * variances.asDiagonal() * V.transpose();
   return {arc_increment(step, options.arc), Q + slip_covariance(step, options.noise, options.arc)};
 }
 

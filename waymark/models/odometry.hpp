@@ -15,14 +15,22 @@ struct WheelGeometry {
   double track_m = 0.0;
 };
 
+/// A car steered by its front wheels, whose speed is measured at one rear wheel. Its origin is the middle of
+/// the rear axle. A wheel base of zero means unknown.
+struct CarGeometry {
+  double wheel_base_m = 0.0;      ///< from the rear axle to the front one
+  double encoder_offset_m = 0.0;  ///< how far left of the middle the wheel with the encoder is
+};
+
 /// How the increments of odometry go wrong. All are variances per metre or radian travelled, so that cutting
 /// a motion into more steps changes nothing, and all vanish when the robot stands still.
 struct OdometryNoise {
-  double wheel_var_m2_per_m = 1e-4;     ///< each wheel's own error, per metre that the wheel rolls
+  double wheel_var_m2_per_m = 1e-4;     ///< each measured wheel's own error, per metre that the wheel rolls
   double forward_var_m2_per_m = 1e-4;   ///< slip along the heading
   double lateral_var_m2_per_m = 1e-5;   ///< sideways slip
   double turn_var_rad2_per_rad = 4e-3;  ///< slip in turning
   double turn_var_rad2_per_m = 1e-4;    ///< turning while driving straight
+  double steer_var_rad2_m = 1e-4;       ///< of a steering angle, times the way on which its error lasts
 };
 
 /// When the robot stands, so that what its odometry turns is an error of its own: it reports less speed and
@@ -38,6 +46,7 @@ enum class ArcModel { kExact, kArticle };
 
 struct OdometryOptions {
   WheelGeometry wheels;
+  CarGeometry car;
   OdometryNoise noise;
   StandingOptions standing;
   ArcModel arc = ArcModel::kExact;
@@ -52,6 +61,8 @@ void describe(Schema& schema, OdometryOptions& options);
 
 /// The wheels are known and possible.
 [[nodiscard]] Result<void> check(const WheelGeometry& wheels);
+/// The same of the car.
+[[nodiscard]] Result<void> check(const CarGeometry& car);
 
 /// Distance along the path and turn: what a differential drive does in one step.
 struct ArcStep {
@@ -75,6 +86,16 @@ struct ArcStep {
 
 /// Motion from encoder increments: independent errors per wheel (Chong and Kleeman 1997) plus slip.
 [[nodiscard]] Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options);
+
+/// What the middle of a car's rear axle does while the measured wheel rolls so far at a steering angle
+/// (Guivant and Nebot 2001, section V): ds = rolled / (1 - tan(steer) H / L), dth = ds tan(steer) / L. With H
+/// of a wheel left of the middle, which rolls less in a left turn.
+[[nodiscard]] ArcStep car_step(double rolled_m, double steer_rad, const CarGeometry& car);
+/// d(ds, dth)/d(rolled, steer) of the above.
+[[nodiscard]] Eigen::Matrix2d car_jacobian(double rolled_m, double steer_rad, const CarGeometry& car);
+
+/// Motion from a speed and a steering angle held for `dt_s` >= 0, with the errors of both.
+[[nodiscard]] Motion steering_motion(const Steering& steering, double dt_s, const OdometryOptions& options);
 
 /// Motion from a velocity held for `dt_s` >= 0. The noise acts on the distance and turn that result.
 [[nodiscard]] Motion velocity_motion(const Velocity& velocity, double dt_s, const OdometryOptions& options);

@@ -19,14 +19,15 @@ Result<void> apply(Schema& schema, const UserSettings& user) {
 }
 
 Result<void> apply(Schema& schema, const LogInfo& log) {
-  if (!log.identities)
-    if (auto done = schema.set("associate", "ml", log.name); !done) return done;
   if (log.only_pixels)
     if (auto done = schema.set("observe", "pixel", log.name); !done) return done;
   for (const auto& [key, value] : log.settings)
     if (auto done = schema.set(key, value, log.name); !done) return done;
   return {};
 }
+
+/// What a filter does best where sightings have no identity.
+const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
 
 Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
   if (input.starts_with(kSimulationPrefix))
@@ -45,9 +46,11 @@ Schema describe(Config& config) {
   schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel"},
                 "which part of the observations is used; pixel: natural corners in images, or given pixels; "
                 "the default is what the log offers");
-  schema.choice("associate", config.associate, {"known", "ml"},
-                "how observations find their landmarks: by identity alone, or without one by maximum "
-                "likelihood; the default is what the log allows");
+  schema.choice(
+      "associate", config.associate, {"known", "nearest", "jcbb", "ml"},
+      "how observations find their landmarks: by identity alone, or also without one: nearest (pair "
+      "by pair) and jcbb (jointly) are the EKF's, ml (by maximum likelihood) is FastSLAM's; the "
+      "default is what the log allows");
   schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
   schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
   describe(schema, config.input);
@@ -92,9 +95,16 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   if (input.starts_with(kSimulationPrefix))
     config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
   Schema schema = describe(config);
-  if (auto done = apply(schema, (*source)->info()); !done) return done.error();
+  const LogInfo& log = (*source)->info();
+  if (auto done = apply(schema, log); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
   config.camera_known = schema.was_set("camera.fu_px");
+  if (!log.identities) {
+    // The filter is settled now; but the user may have said how to associate, too.
+    if (auto done = schema.set("associate", without_identities(config.filter), log.name); !done)
+      return done.error();
+    if (auto done = apply(schema, user); !done) return done.error();
+  }
   if (config.observe == Observe::kPixel) *source = std::make_unique<ImageLoader>(std::move(*source));
   return OpenedInput{std::move(*source), config};
 }

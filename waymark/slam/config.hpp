@@ -26,8 +26,10 @@ namespace waymark {
 
 enum class FilterKind { kEkf, kFastSlam };
 enum class Association {
-  kKnown,  ///< by their identities
-  kMl      ///< those without identity by maximum likelihood
+  kKnown,    ///< by their identities
+  kNearest,  ///< EKF: those without identity pair by pair, the likeliest first
+  kJcbb,     ///< EKF: those without identity by what they say together
+  kMl        ///< FastSLAM: those without identity by maximum likelihood
 };
 
 /// Everything that decides a run besides its input. Enters once, is validated whole, is written beside the

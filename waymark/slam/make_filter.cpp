@@ -3,16 +3,24 @@
 namespace waymark {
 namespace {
 
+std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
+  if (config.associate == Association::kKnown) return std::nullopt;
+  return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
+}
+
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
-  if (config.associate != Association::kKnown)
-    return Error{"associate: the EKF needs identities so far; sightings without: filter=fastslam"};
+  if (config.associate == Association::kMl)
+    return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
+  if (config.associate != Association::kKnown && config.observe == Observe::kPixel)
+    return Error{"associate: pixels need identities: associate=known"};
   if (config.ekf.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
-      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(
-          config.ekf, config.gate, config.sensor.T_robot_sensor(), config.threads, config.sensor.errors));
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate,
+                                                               config.sensor.T_robot_sensor(), config.threads,
+                                                               config.sensor.errors, unnamed(config)));
     case Observe::kPixel:
       return std::unique_ptr<Filter>(
           std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
@@ -27,6 +35,8 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
 Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
   if (config.observe == Observe::kPixel)
     return Error{"filter: fastslam does not take pixels; filter=ekf does, or choose another observe"};
+  if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
+    return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
   const bool by_likelihood = config.associate == Association::kMl;
   if (by_likelihood && config.observe != Observe::kRangeBearing)
     return Error{

@@ -15,6 +15,14 @@ Value between(const std::pair<Stamp, Value>& a, const std::pair<Stamp, Value>& b
   return interpolate(a.second, b.second, to_seconds(stamp - a.first) / to_seconds(b.first - a.first));
 }
 
+Motion motion_of(const Velocity& velocity, double dt_s, const OdometryOptions& options) {
+  return velocity_motion(velocity, dt_s, options);
+}
+
+Motion motion_of(const Steering& steering, double dt_s, const OdometryOptions& options) {
+  return steering_motion(steering, dt_s, options);
+}
+
 /// The event's own content if it is of this kind.
 template <class Content>
 const Content* content_of(const Event* event) {
@@ -25,7 +33,7 @@ const Content* content_of(const Event* event) {
 
 bool is_odometry(const EventContent& content) {
   return std::holds_alternative<WheelAngles>(content) || std::holds_alternative<Velocity>(content) ||
-         std::holds_alternative<OdometryPose>(content);
+         std::holds_alternative<Steering>(content) || std::holds_alternative<OdometryPose>(content);
 }
 
 template <class Value>
@@ -49,7 +57,7 @@ Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
 
 Motion Odometer::advance(Stamp stamp, const Event* next) {
   Motion motion;
-  if (velocity_) motion = advance_velocity(stamp);
+  if (held_) motion = advance_held(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
   if (!is_still(motion)) take_bias_out(motion.increment, to_seconds(stamp - *now_));
@@ -63,11 +71,12 @@ void Odometer::take_bias_out(Pose2& increment, double dt_s) {
   if (rate_radps != 0.0) increment = turned_more(increment, -rate_radps * dt_s, options_.arc);
 }
 
-Motion Odometer::advance_velocity(Stamp stamp) {
-  const Stamp held_until = velocity_stamp_ + max_hold_;
+Motion Odometer::advance_held(Stamp stamp) {
+  const Stamp held_until = held_since_ + max_hold_;
   if (stamp > held_until && *now_ <= held_until) ++gaps_;
   const Duration held = std::min(stamp, held_until) - *now_;
-  return held > Duration{0} ? velocity_motion(*velocity_, to_seconds(held), options_) : Motion{};
+  if (held <= Duration{0}) return {};
+  return std::visit([&](const auto& speed) { return motion_of(speed, to_seconds(held), options_); }, *held_);
 }
 
 Motion Odometer::advance_wheels(Stamp stamp, const Event* next) {
@@ -92,8 +101,11 @@ bool Odometer::add(const Event& event) {
   if (*kind_ != event.content.index()) return false;
   now_ = event.stamp;
   if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
-    velocity_ = *velocity;
-    velocity_stamp_ = event.stamp;
+    held_ = *velocity;
+    held_since_ = event.stamp;
+  } else if (const auto* steering = std::get_if<Steering>(&event.content)) {
+    held_ = *steering;
+    held_since_ = event.stamp;
   } else if (const auto* wheels = std::get_if<WheelAngles>(&event.content)) {
     wheel_track_.add(event.stamp, *wheels);
     if (!wheels_now_) wheels_now_ = *wheels;

@@ -47,7 +47,7 @@ class Odometer {
 
  private:
   void take_bias_out(Pose2& increment, double dt_s);
-  [[nodiscard]] Motion advance_velocity(Stamp stamp);
+  [[nodiscard]] Motion advance_held(Stamp stamp);
   [[nodiscard]] Motion advance_wheels(Stamp stamp, const Event* next);
   [[nodiscard]] Motion advance_pose(Stamp stamp, const Event* next);
 
@@ -58,8 +58,8 @@ class Odometer {
   std::optional<Stamp> now_;
   int gaps_ = 0;
 
-  std::optional<Velocity> velocity_;
-  Stamp velocity_stamp_;
+  std::optional<std::variant<Velocity, Steering>> held_;  // until the next one
+  Stamp held_since_;
   SampledTrack<WheelAngles> wheel_track_;
   SampledTrack<Pose2> pose_track_;
   std::optional<WheelAngles> wheels_now_;

@@ -29,7 +29,7 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
 std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInnovation>& innovations) {
   std::vector<std::string> lines;
   for (const Outcome outcome : {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable,
-                                Outcome::kDuplicate, Outcome::kMapFull}) {
+                                Outcome::kAmbiguous, Outcome::kDuplicate, Outcome::kMapFull}) {
     const auto count = std::ranges::count_if(
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)
@@ -81,6 +81,7 @@ bool shows_pixels(const EventContent& content) {
 /// What cannot be understood without knowing what it was measured with.
 Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
+  if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
   if (config.camera_known || config.observe != Observe::kPixel || !shows_pixels(event.content)) return {};
   return Error{
       "camera.fu_px: nobody says what the camera is like: put its camera_info file into the log as "
@@ -88,7 +89,8 @@ Result<void> check_sensor_of(const Event& event, const Config& config) {
       "camera.cv_px"};
 }
 
-/// Truth goes to the record, the rest to the pipeline; wheels and cameras that nobody knows end the run.
+/// Truth goes to the record, the rest to the pipeline; wheels, cars and cameras that nobody knows end the
+/// run.
 Result<void> route(Event event, const Config& config, Recording& recording, Pipeline& pipeline) {
   if (const auto* truth = std::get_if<Truth>(&event.content)) {
     recording.truth.emplace_back(event.stamp, *truth);

@@ -1,0 +1,236 @@
+// EKF-SLAM over sightings without identity.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/allocation_counter.hpp"
+#include "support/circle_world.hpp"
+#include "support/unnamed_sightings.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+
+namespace waymark {
+namespace {
+
+using test::CircleWorld;
+using test::drive;
+using test::nearest_m;
+using test::unnamed;
+
+EkfSlam make_filter(const CircleWorld& world, const EkfOptions& options = {.capacity = 40},
+                    bool jointly = true) {
+  return {options, {}, world.mount(), 1, {}, ekf::UnnamedOptions{jointly, {}, world.sensor()}};
+}
+
+class EkfSlamUnnamedBothWays : public testing::TestWithParam<bool> {};
+
+TEST_P(EkfSlamUnnamedBothWays, FindsEveryLandmarkOnceAmongClutter) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    CircleWorld world(seed);
+    EkfSlam filter = make_filter(world, {.capacity = 40}, GetParam());
+    drive(filter, world, 300, seed);
+    const Snapshot snapshot = filter.snapshot();
+    EXPECT_EQ(snapshot.landmarks.size(), world.landmarks().size());
+    for (const auto& p : world.landmarks()) EXPECT_LT(nearest_m(snapshot, p), 0.5);
+    EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 0.5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ekf, EkfSlamUnnamedBothWays, testing::Bool());
+
+TEST(EkfSlamUnnamed, WithoutAssociationNothingUnnamedIsUsed) {
+  CircleWorld world(1);
+  EkfSlam filter({.capacity = 40}, {}, world.mount());
+  EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kUnidentified), 8);
+}
+
+TEST(EkfSlamUnnamed, WithoutClutterItIsTheFilterThatKnows) {
+  CircleWorld told(2);
+  CircleWorld untold(2);
+  EkfSlam knows({.capacity = 40}, {}, told.mount());
+  EkfSlam guesses = make_filter(untold);
+  for (int i = 0; i < 100; ++i) {
+    knows.predict(told.move());
+    knows.correct(told.look());
+    guesses.predict(untold.move());
+    guesses.correct(unnamed(untold.look()));
+  }
+  const Eigen::Vector3d apart = difference(knows.pose().T_world_robot, guesses.pose().T_world_robot);
+  EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((knows.save().covariance - guesses.save().covariance).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(EkfSlamUnnamed, ASingleSightingIsNotInTheMapYet) {
+  CircleWorld world(2);
+  EkfSlam filter = make_filter(world);
+  EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kAdded), 8);
+  EXPECT_TRUE(filter.snapshot().landmarks.empty());
+  EXPECT_TRUE(filter.save().ids.empty());
+  EXPECT_EQ(filter.save().covariance.rows(), 3);
+  drive(filter, world, 3);
+  EXPECT_EQ(filter.snapshot().landmarks.size(), 8U);
+  EXPECT_EQ(filter.save().covariance.rows(), 19);
+}
+
+TEST(EkfSlamUnnamed, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
+  CircleWorld world(6);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 20);
+  filter.predict(world.move());
+  auto scan = unnamed(world.look());
+  RandomStream random(5, StreamPurpose::kSimulation);
+  while (filter.correct(scan).count(Outcome::kAdded) == 0) scan.insert(scan.begin(), test::clutter(random));
+  const Snapshot snapshot = filter.snapshot();
+  const MapState map = filter.save();
+  ASSERT_EQ(map.ids.size(), snapshot.landmarks.size());
+  for (std::size_t i = 0; i < map.ids.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    EXPECT_EQ(map.ids[i], snapshot.landmarks[i].id);
+    EXPECT_LT((map.landmarks.segment<2>(row) - snapshot.landmarks[i].position_m.head<2>()).norm(), 1e-12);
+    EXPECT_LT((map.covariance.block<2, 2>(row + 3, row + 3) -
+               snapshot.landmarks[i].covariance.topLeftCorner<2, 2>())
+                  .norm(),
+              1e-12);
+  }
+}
+
+TEST(EkfSlamUnnamed, ALandmarkThatIsSeenNoMoreIsDeletedAndReported) {
+  CircleWorld world(3);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 20);
+  ASSERT_EQ(filter.snapshot().landmarks.size(), 8U);
+  std::size_t removed = 0;
+  for (int i = 0; i < 20; ++i) {
+    filter.predict(world.move());
+    auto scan = unnamed(world.look());
+    scan.erase(scan.begin() + 2);
+    removed += filter.correct(scan).removed.size();
+  }
+  EXPECT_EQ(removed, 1U);
+  const Snapshot snapshot = filter.snapshot();
+  EXPECT_EQ(snapshot.landmarks.size(), 7U);
+  EXPECT_GT(nearest_m(snapshot, world.landmarks()[2]), 1.0);
+}
+
+TEST(EkfSlamUnnamed, IdentitiesCountWhereThereAreAny) {
+  CircleWorld world(4);
+  EkfSlam filter = make_filter(world);
+  for (int i = 0; i < 30; ++i) {
+    filter.predict(world.move());
+    auto scan = world.look();
+    for (std::size_t k = 4; k < scan.size(); ++k) scan[k].id.reset();
+    filter.correct(scan);
+  }
+  const auto landmarks = filter.snapshot().landmarks;
+  EXPECT_EQ(landmarks.size(), 8U);
+  EXPECT_EQ(std::ranges::count(landmarks, LandmarkId::Family::kMarker,
+                               [](const LandmarkEstimate& each) { return each.id.family; }),
+            4);
+}
+
+TEST(EkfSlamUnnamed, AnUnnamedSightingMayBeOfANamedLandmark) {
+  CircleWorld world(5);
+  EkfSlam filter = make_filter(world);
+  filter.correct(world.look());
+  filter.predict(world.move());
+  EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kMatched), 8);
+}
+
+TEST(EkfSlamUnnamed, ALandmarkThatIsThereTwiceIsMerged) {
+  CircleWorld world(6);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 20);
+  ASSERT_EQ(filter.snapshot().landmarks.size(), 8U);
+  std::size_t removed = 0;
+  for (int i = 0; i < 20; ++i) {
+    filter.predict(world.move());
+    removed += filter.correct(world.look()).removed.size();  // the same ones, now with names
+  }
+  EXPECT_GT(filter.merges(), 0);
+  EXPECT_EQ(removed, 8U);
+  const auto landmarks = filter.snapshot().landmarks;
+  EXPECT_EQ(landmarks.size(), 8U);
+  for (const LandmarkEstimate& landmark : landmarks)
+    EXPECT_EQ(landmark.id.family, LandmarkId::Family::kMarker);
+  for (const auto& p : world.landmarks()) EXPECT_LT(nearest_m(filter.snapshot(), p), 0.5);
+}
+
+TEST(EkfSlamUnnamed, ASecondSightingBesideALandmarkIsAmbiguous) {
+  CircleWorld world(7);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 20);
+  filter.predict(world.move());
+  auto scan = unnamed(world.look());
+  scan.push_back(scan.front());
+  std::get<RangeBearing>(scan.back().value).range_m += 0.1;
+  const Correction& correction = filter.correct(scan);
+  EXPECT_EQ(correction.count(Outcome::kMatched), 8);
+  EXPECT_EQ(correction.count(Outcome::kAmbiguous), 1);
+}
+
+TEST(EkfSlamUnnamed, ACompressedMapIsTheSame) {
+  CircleWorld world(8);
+  const auto filter = [&world](Compress compressed) {
+    return make_filter(world,
+                       {.consistency = ekf::Consistency::kFej, .capacity = 120, .compressed = compressed});
+  };
+  EkfSlam whole = filter(Compress::kNever);
+  EkfSlam compressed = filter(Compress::kAlways);
+  for (const auto& [motion, scan] : test::cluttered_steps(world, 200)) {
+    for (EkfSlam* each : {&whole, &compressed}) {
+      each->predict(motion);
+      each->correct(scan);
+    }
+  }
+  EXPECT_LT((whole.save().covariance - compressed.save().covariance).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(EkfSlamUnnamed, ASteadyStateStepAllocatesNothing) {
+  CircleWorld world(8);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 200);
+  const test::Steps steps = test::cluttered_steps(world, 50, 3);
+  int added = 0;
+  const test::AllocationCount count;
+  for (const auto& [motion, scan] : steps) {
+    filter.predict(motion);
+    added += filter.correct(scan).count(Outcome::kAdded);
+  }
+  EXPECT_EQ(count.allocations(), 0);
+  EXPECT_GT(added, 0);
+}
+
+TEST(EkfSlamUnnamed, AFullMapSaysSo) {
+  CircleWorld world(9);
+  EkfSlam filter = make_filter(world, {.capacity = 5, .evict = ekf::Eviction::kNone});
+  const Correction& correction = filter.correct(unnamed(world.look()));
+  EXPECT_EQ(correction.count(Outcome::kAdded), 5);
+  EXPECT_EQ(correction.count(Outcome::kMapFull), 3);
+}
+
+TEST(EkfSlamUnnamed, AFullMapStillTakesWhatIsSeen) {
+  CircleWorld world(9);
+  EkfSlam filter = make_filter(world, {.capacity = 5});
+  drive(filter, world, 50);
+  EXPECT_LE(filter.snapshot().landmarks.size(), 5U);
+  EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 1.0);
+}
+
+TEST(EkfSlamUnnamed, NonsenseIsRefused) {
+  CircleWorld world(10);
+  EkfSlam filter = make_filter(world);
+  drive(filter, world, 20);
+  auto scan = unnamed(world.look());
+  std::get<RangeBearing>(scan[0].value).range_m = NAN;
+  scan[1].covariance = Eigen::Matrix2d::Constant(NAN);
+  scan[2].covariance.reset();
+  scan[3].value = Bearing{0.1};
+  const Correction& correction = filter.correct(scan);
+  EXPECT_EQ(correction.count(Outcome::kUnusable), 4);
+  EXPECT_EQ(correction.count(Outcome::kMatched), 4);
+}
+
+}  // namespace
+}  // namespace waymark

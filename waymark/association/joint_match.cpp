@@ -1,0 +1,154 @@
+#include "waymark/association/joint_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "waymark/core/angle.hpp"
+#include "waymark/core/chi2.hpp"
+
+namespace waymark {
+namespace {
+
+const double kLogTurn = std::log(2.0 * kPi);
+
+constexpr auto index(int i) { return static_cast<std::size_t>(i); }
+
+/// A L^-T. Eigen's own solver is made for larger ones.
+Eigen::Matrix2d divided_by_transposed(const Eigen::Matrix2d& A, const Eigen::Matrix2d& L) {
+  Eigen::Matrix2d X;
+  X.col(0) = A.col(0) / L(0, 0);
+  X.col(1) = (A.col(1) - X.col(0) * L(1, 0)) / L(1, 1);
+  return X;
+}
+
+}  // namespace
+
+JointMatch::JointMatch(double gate_probability, int most_sightings, int most_nodes)
+    : gates_(index(most_sightings) + 1),
+      most_nodes_(most_nodes),
+      steps_(index(most_sightings)),
+      L_(index(most_sightings * most_sightings)) {
+  for (int k = 1; k <= most_sightings; ++k) gates_[index(k)] = chi2_quantile(gate_probability, 2 * k);
+  chosen_.reserve(index(most_sightings));
+}
+
+void JointMatch::begin(int sightings) {
+  best_.assign(index(sightings), kNothing);
+  common_.resize(pairs_.size() * pairs_.size());
+}
+
+void JointMatch::search() {
+  rank_pairs();
+  chosen_.clear();
+  best_score_ = 0.0;
+  nodes_ = 0;
+  descend(0, 0.0);
+}
+
+/// Levels with their pairs, the surest sighting first: it leaves the least open for those after it.
+void JointMatch::rank_pairs() {
+  order_.clear();
+  alone_.clear();
+  for (int p = 0; p < static_cast<int>(pairs_.size()); ++p) {
+    order_.push_back(p);
+    alone_.push_back(score_alone(p));
+  }
+  std::ranges::sort(order_, {},
+                    [this](int p) { return std::tuple(pairs_[index(p)].sighting, -alone_[index(p)], p); });
+  levels_.clear();
+  for (std::size_t first = 0, next = 0; first < order_.size(); first = next) {
+    while (next < order_.size() &&
+           pairs_[index(order_[next])].sighting == pairs_[index(order_[first])].sighting)
+      ++next;
+    make_level(first, next - first);
+  }
+  std::ranges::sort(levels_, {}, [](const Level& level) { return std::tuple(-level.surest, level.first); });
+  if (levels_.size() >= gates_.size()) levels_.resize(gates_.size() - 1);
+  for (std::size_t i = levels_.size(); i-- > 1;) levels_[i - 1].bound += levels_[i].bound;
+}
+
+void JointMatch::make_level(std::size_t first, std::size_t count) {
+  const double second = count > 1 ? std::max(0.0, alone_[index(order_[first + 1])]) : 0.0;
+  Level level{first, count, alone_[index(order_[first])] - second, 0.0};
+  for (std::size_t i = first; i < first + count; ++i) level.bound = std::max(level.bound, most_of(order_[i]));
+  levels_.push_back(level);
+}
+
+double JointMatch::score_alone(int pair) {
+  const JointPair& p = pairs_[index(pair)];
+  const Eigen::LLT<Eigen::Matrix2d> llt(common(index(pair), index(pair)) + p.R);
+  const double log_det = 2.0 * (std::log(llt.matrixLLT()(0, 0)) + std::log(llt.matrixLLT()(1, 1)));
+  const double score = p.bonus - 0.5 * (p.nu.dot(llt.solve(p.nu)) + log_det) - kLogTurn;
+  return std::isfinite(score) ? score : -HUGE_VAL;
+}
+
+/// What a pair brings where its innovation is zero and its noise all that is unknown: S >= R.
+double JointMatch::most_of(int pair) const {
+  const JointPair& p = pairs_[index(pair)];
+  const double most = p.bonus - 0.5 * std::log(p.R.determinant()) - kLogTurn;
+  return std::isfinite(most) ? most : HUGE_VAL;
+}
+
+// Recursion as deep as there are sightings.
+void JointMatch::descend(std::size_t level, double score) {  // NOLINT(misc-no-recursion)
+  if (score > best_score_) keep(score);
+  if (level == levels_.size() || score + levels_[level].bound <= best_score_) return;
+  const Level& here = levels_[level];
+  for (std::size_t i = here.first; i < here.first + here.count; ++i) {
+    const int pair = order_[i];
+    if (is_taken(pairs_[index(pair)].landmark)) continue;
+    if (++nodes_ > most_nodes_) return;
+    if (!choose(pair)) continue;
+    descend(level + 1, steps_[chosen_.size() - 1].score);
+    chosen_.pop_back();
+  }
+  descend(level + 1, score);
+}
+
+bool JointMatch::is_taken(int landmark) const {
+  return std::ranges::any_of(chosen_, [&](int pair) { return pairs_[index(pair)].landmark == landmark; });
+}
+
+void JointMatch::keep(double score) {
+  best_score_ = score;
+  std::ranges::fill(best_, kNothing);
+  for (const int pair : chosen_) best_[index(pairs_[index(pair)].sighting)] = pair;
+}
+
+/// Appends a pair's two rows to the Cholesky factor of the hypothesis. False, and nothing changed, where that
+/// is not compatible.
+bool JointMatch::choose(int pair) {
+  const std::size_t k = chosen_.size();
+  const JointPair& p = pairs_[index(pair)];
+  Eigen::Matrix2d* const row = &L_[k * steps_.size()];
+  Eigen::Matrix2d left = common(index(pair), index(pair)) + p.R;
+  Eigen::Vector2d nu = p.nu;
+  for (std::size_t j = 0; j < k; ++j) {
+    const std::size_t other = index(chosen_[j]);
+    Eigen::Matrix2d sum = index(pair) > other ? common(index(pair), other)
+                                              : Eigen::Matrix2d(common(other, index(pair)).transpose());
+    for (std::size_t i = 0; i < j; ++i) sum -= row[i] * L_[j * steps_.size() + i].transpose();
+    row[j] = divided_by_transposed(sum, steps_[j].L);
+    left -= row[j] * row[j].transpose();
+    nu -= row[j] * steps_[j].y;
+  }
+  const Eigen::LLT<Eigen::Matrix2d> llt(left);
+  if (llt.info() != Eigen::Success) return false;
+  Step& step = steps_[k];
+  step.L = llt.matrixL();
+  step.y[0] = nu[0] / step.L(0, 0);
+  step.y[1] = (nu[1] - step.L(1, 0) * step.y[0]) / step.L(1, 1);
+  const Step* const before = k > 0 ? &steps_[k - 1] : nullptr;
+  step.d2 = (before != nullptr ? before->d2 : 0.0) + step.y.squaredNorm();
+  if (!(step.d2 <= gates_[k + 1])) return false;
+  step.score = (before != nullptr ? before->score : 0.0) + p.bonus - 0.5 * step.y.squaredNorm() -
+               std::log(step.L(0, 0) * step.L(1, 1)) - kLogTurn;
+  chosen_.push_back(pair);
+  return true;
+}
+
+}  // namespace waymark

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace waymark {
+
+/// A sighting that may be of a landmark, as a Gaussian filter compares them.
+struct JointPair {
+  int sighting = 0;
+  int landmark = 0;
+  Eigen::Vector2d nu = Eigen::Vector2d::Zero();  ///< innovation, z - h
+  Eigen::Matrix2d R = Eigen::Matrix2d::Zero();   ///< noise of the sighting alone
+  double bonus = 0.0;  ///< log of the odds that the landmark is sighted over the density of others there
+};
+
+/// Decides which sighting of one scan is of which landmark by what they say together: joint compatibility
+/// branch and bound (Neira and Tardos 2001). Errors of the pose are common to all sightings of a scan, so
+/// that pairs which are likely one by one may contradict each other.
+///
+/// A hypothesis is a set of pairs, one to one. It is compatible if nu^T S^-1 nu of all its pairs, with their
+/// joint covariance S, is within the gate for their number. Of the compatible ones the one of the largest
+///
+///     log N(nu; 0, S) + sum of the bonuses
+///
+/// is taken, which is the likeliest: Neira and Tardos take the one of most pairs, and so would pair clutter
+/// with whatever is near. Pairs are tried depth first, the surest sighting first; S is factorised pair by
+/// pair; what is left of a branch can bring no more than the remaining sightings would if nothing but their
+/// noise were unknown. Memory is taken as scans grow and kept.
+class JointMatch {
+ public:
+  static constexpr int kNothing = -1;
+
+  /// Gates are for this part of true hypotheses of up to `most_sightings` pairs. No more than `most_nodes`
+  /// pairs are tried per scan; then the best hypothesis so far counts.
+  JointMatch(double gate_probability, int most_sightings, int most_nodes);
+
+  void clear() { pairs_.clear(); }
+  void add(const JointPair& pair) { pairs_.push_back(pair); }
+  [[nodiscard]] std::span<const JointPair> pairs() const { return pairs_; }
+
+  /// `covariance(a, b)`, both indices of pairs, is H_a P H_b^T, 2x2. Sightings count from 0. O(pairs^2) calls
+  /// and O(nodes * sightings^2).
+  template <class Covariance>
+  void solve(int sightings, const Covariance& covariance) {
+    begin(sightings);
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        common(a, b) = covariance(static_cast<int>(a), static_cast<int>(b));
+    search();
+  }
+
+  /// Index of the pair of a sighting, or kNothing.
+  [[nodiscard]] int pair_of(int sighting) const { return best_[static_cast<std::size_t>(sighting)]; }
+  /// The landmark of a sighting, or kNothing.
+  [[nodiscard]] int landmark_of(int sighting) const {
+    const int pair = pair_of(sighting);
+    return pair == kNothing ? kNothing : pairs_[static_cast<std::size_t>(pair)].landmark;
+  }
+  [[nodiscard]] double score() const { return best_score_; }
+  /// Whether all of the last scan's hypotheses were considered.
+  [[nodiscard]] bool is_exhaustive() const { return nodes_ <= most_nodes_; }
+
+ private:
+  /// The pairs of one sighting, from `first` on in order_.
+  struct Level {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    double surest = 0.0;  ///< by how much its best pair beats what comes next
+    double bound = 0.0;   ///< what this level and those after it can bring at most
+  };
+  /// What is known of a pair when those chosen before it are.
+  struct Step {
+    Eigen::Matrix2d L;  ///< Cholesky factor of what is left of its S
+    Eigen::Vector2d y;  ///< L^-1 times what is left of its nu
+    double d2 = 0.0;    ///< of the hypothesis with it
+    double score = 0.0;
+  };
+
+  [[nodiscard]] Eigen::Matrix2d& common(std::size_t a, std::size_t b) {
+    return common_[a * pairs_.size() + b];
+  }
+  void begin(int sightings);
+  void search();
+  void rank_pairs();
+  void make_level(std::size_t first, std::size_t count);
+  [[nodiscard]] double score_alone(int pair);
+  [[nodiscard]] double most_of(int pair) const;
+  void descend(std::size_t level, double score);
+  bool choose(int pair);
+  [[nodiscard]] bool is_taken(int landmark) const;
+  void keep(double score);
+
+  std::vector<double> gates_;  // by number of pairs
+  int most_nodes_;
+  std::vector<JointPair> pairs_;
+  std::vector<Eigen::Matrix2d> common_;  // H P H^T by pair and pair, lower triangle
+  std::vector<double> alone_;            // score of a pair by itself
+  std::vector<int> order_;               // pairs by level, the best first
+  std::vector<Level> levels_;
+  std::vector<int> chosen_;
+  std::vector<Step> steps_;         // of the chosen
+  std::vector<Eigen::Matrix2d> L_;  // by chosen pair and earlier one
+  std::vector<int> best_;           // by sighting
+  double best_score_ = 0.0;
+  int nodes_ = 0;
+};
+
+}  // namespace waymark
