@@ -18,6 +18,7 @@ struct Request {
   std::string observe;
   std::string associate;
   std::string particles;
+  bool smooth = false;
   TimeSpan span;
   SettingsFlags flags;
   Verbosity verbosity;
@@ -31,6 +32,7 @@ struct Request {
     set("observe", observe);
     set("associate", associate);
     set("fastslam.particles", particles);
+    set("smooth.run", smooth ? "true" : "");
     return user;
   }
 };
@@ -81,6 +83,8 @@ void add_run(CLI::App& app, Work& work) {
                    "log allows")
       ->type_name("HOW");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
+  command->add_flag("--smooth", request->smooth,
+                    "also estimate path, map and calibration from the whole log when it has ended");
   command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");
   command->add_option("--to", request->span.to_s, "end this many seconds into the log")->type_name("S");
   request->flags.add_to(*command);
@@ -92,7 +96,7 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run sim:room --observe pixel -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
-      "report.html.");
+      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 

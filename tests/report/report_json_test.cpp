@@ -79,6 +79,15 @@ TEST(ReportJson, CountsAllInnovationsInTheHistogram) {
   }
 }
 
+TEST(ReportJson, HasASmoothedPathWhereThereIsOne) {
+  ReportData data;
+  data.runs.resize(2);
+  data.runs[1].smoothed = {{0.0, 1.0}, {2.0, 3.0}, {4.0, 5.0}, {0.0, 0.0}};
+  const auto report = nlohmann::ordered_json::parse(report_json(data));
+  EXPECT_FALSE(report.at("runs").at(0).contains("smoothed"));
+  EXPECT_EQ(report.at("runs").at(1).at("smoothed").at("y").dump(), "[4.0,5.0]");
+}
+
 TEST(ReportJson, KeepsMetricsInTheirOrder) {
   ReportData data;
   data.runs.resize(2);

@@ -95,6 +95,35 @@ Json truth_json(const eval::Evaluation& e) {
   return truth;
 }
 
+/// What of a score says how far two paths and maps are apart.
+Json distance_json(const eval::Evaluation& e) {
+  Json json = Json::object();
+  put(json, "position_rmse_m", e.path.position_rmse_m);
+  put(json, "position_rmse_aligned_m", e.path.position_rmse_aligned_m);
+  put(json, "heading_rmse_deg", e.path.heading_rmse_deg);
+  put(json, "final_error_m", e.path.final_error_m);
+  if (e.map) {
+    put(json, "landmark_rmse_m", e.map->rmse_m);
+    put(json, "landmark_rmse_self_m", e.map->rmse_self_m);
+  }
+  put(json, "nees_median", e.nees.median);
+  return json;
+}
+
+Json smoothed_json(const SmoothedFigures& s) {
+  Json json{{"cpu_s", rounded(s.cpu_s)},
+            {"iterations", s.iterations},
+            {"converged", s.converged},
+            {"poses", s.poses},
+            {"sightings", s.sightings}};
+  json["calibration"] = Json::object();
+  for (const auto& [key, value, sigma] : s.calibration) json["calibration"][key] = rounded(value);
+  json["live"] = distance_json(s.live);
+  json["live"].erase("nees_median");
+  if (s.truth && (s.truth->pairs > 0 || s.truth->map)) json["truth"] = distance_json(*s.truth);
+  return json;
+}
+
 std::string line(const std::string& what, const std::optional<double>& value, const char* unit,
                  const std::string& more = "") {
   return value ? fmt::format("  {:<30}{:>9.3f} {}{}\n", what, *value, unit, more) : std::string();
@@ -170,7 +199,27 @@ std::string to_json(const Metrics& m) {
             {"peak_rss_mb", rounded(m.peak_rss_mb)}};
   put(json, "nis_per_dof", m.nis_per_dof);
   if (m.truth && (m.truth->pairs > 0 || m.truth->map)) json["truth"] = truth_json(*m.truth);
+  if (m.smoothed) json["smoothed"] = smoothed_json(*m.smoothed);
   return json.dump(2) + "\n";
+}
+
+SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config& config,
+                                 const Recording& recording, const std::optional<eval::Evaluation>& truth) {
+  std::vector<TrueLandmark> map;
+  for (const auto& landmark : smoothed.landmarks) {
+    const Eigen::Vector3d& p = landmark.position_m;
+    map.push_back({landmark.id, p.x(), p.y(), p.z()});
+  }
+  const auto live = eval::evaluate(recording.trajectory, recording.filter->snapshot().landmarks,
+                                   eval::TruthTrack::from_trajectory(smoothed.trajectory), map);
+  return {to_seconds(smoothed.cpu),
+          smoothed.iterations,
+          smoothed.converged,
+          smoothed.poses,
+          smoothed.sightings,
+          calibrated_keys(smoothed, config),
+          live,
+          truth};
 }
 
 std::string truth_json_text(const eval::Evaluation& evaluation) {
@@ -202,6 +251,20 @@ std::string to_text(const eval::Evaluation& e) {
   return text;
 }
 
+static std::string to_text(const SmoothedFigures& s) {
+  std::string text = fmt::format("smoothed: {} poses and {} sightings in {:.2f} s{}\n", s.poses, s.sightings,
+                                 s.cpu_s, s.converged ? "" : ", not converged");
+  if (s.truth) {
+    text += line("position RMSE, from start", s.truth->path.position_rmse_m, "m");
+    text += line("position RMSE, aligned", s.truth->path.position_rmse_aligned_m, "m");
+    if (s.truth->map) text += line("landmark RMSE, with the path", s.truth->map->rmse_m, "m");
+  }
+  text += line("live path was off by, aligned", s.live.path.position_rmse_aligned_m, "m");
+  for (const auto& [key, value, sigma] : s.calibration)
+    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}\n", key, value, sigma);
+  return text;
+}
+
 std::string to_text(const Metrics& m) {
   std::string text =
       fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
@@ -209,6 +272,7 @@ std::string to_text(const Metrics& m) {
   if (m.truth) text += to_text(*m.truth);
   text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
   text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));
+  if (m.smoothed) text += to_text(*m.smoothed);
   return text;
 }
 

@@ -8,8 +8,21 @@
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/slam/recording.hpp"
 #include "waymark/slam/recording_figures.hpp"
+#include "waymark/smooth/smoother.hpp"
 
 namespace waymark {
+
+/// What the whole log says, in figures.
+struct SmoothedFigures {
+  double cpu_s = 0.0;
+  int iterations = 0;
+  bool converged = false;
+  std::size_t poses = 0;
+  std::size_t sightings = 0;
+  std::vector<smooth::CalibratedKey> calibration;
+  eval::Evaluation live;  ///< what the filter said live, scored against the smoothed path and map
+  std::optional<eval::Evaluation> truth;  ///< the smoothed path and map, scored against the truth
+};
 
 /// One run in figures: what metrics.json holds.
 struct Metrics {
@@ -31,6 +44,7 @@ struct Metrics {
   double peak_rss_mb = 0.0;
   std::optional<double> nis_per_dof;  ///< over accepted observations; ideal 1
   std::optional<eval::Evaluation> truth;
+  std::optional<SmoothedFigures> smoothed;
 };
 
 /// `wall_s` covers what the caller says: the run alone, or reading and evaluation with it.
@@ -39,6 +53,11 @@ struct Metrics {
 
 /// metrics.json, keys in a fixed order. What is not known is left out.
 [[nodiscard]] std::string to_json(const Metrics& metrics);
+
+/// The figures of a run that was smoothed.
+[[nodiscard]] SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config& config,
+                                               const Recording& recording,
+                                               const std::optional<eval::Evaluation>& truth);
 
 /// The `truth` part of it alone.
 [[nodiscard]] std::string truth_json_text(const eval::Evaluation& evaluation);

@@ -97,6 +97,7 @@ struct RunData {
   std::string command;
   std::string config_yaml;
   PathSeries path;
+  PathSeries smoothed;             ///< by the whole log, where that was asked for
   std::optional<Pose2> alignment;  ///< moves the anchored estimate to its best fit with the truth
   std::vector<ReportedLandmark> landmarks;
   ErrorSeries errors;

@@ -216,6 +216,7 @@ Json to_json(const RunData& run) {
                {"film", to_json(run.film)},
                {"metrics", metrics_of(run)},
                {"notes", run.notes}};
+  if (!run.smoothed.t_s.empty()) json["smoothed"] = to_json(run.smoothed);
   if (run.alignment) {
     const Pose2& T = *run.alignment;
     json["alignment"] = {{"x_m", T.x_m}, {"y_m", T.y_m}, {"theta_rad", T.theta_rad}};

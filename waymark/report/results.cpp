@@ -29,6 +29,16 @@ Result<void> write_maps(const RunResult& result, const std::filesystem::path& fo
   return write_map(folder / "map.waymark", map);
 }
 
+Result<void> write_smoothed(const RunResult& result, const std::filesystem::path& folder) {
+  if (!result.smoothed) return {};
+  const smooth::Smoothed& smoothed = *result.smoothed;
+  if (auto written = write_trajectory(folder / "trajectory_smoothed.tum", smoothed.trajectory); !written)
+    return written;
+  const Snapshot snapshot{smoothed.trajectory.back().stamp, {}, smoothed.landmarks};
+  if (auto written = write_map_csv(folder / "map_smoothed.csv", snapshot); !written) return written;
+  return write_file(folder / "calibration.yaml", smooth::calibration_yaml(smoothed, result.config));
+}
+
 }  // namespace
 
 Result<RunResult> run_log(const std::string& input, const UserSettings& user, const TimeSpan& span,
@@ -37,6 +47,9 @@ Result<RunResult> run_log(const std::string& input, const UserSettings& user, co
   if (!run) return run.error();
   RunResult result{*std::move(run), {}};
   result.metrics = make_metrics(input, result.config, result.recording, result.evaluation);
+  if (result.smoothed)
+    result.metrics.smoothed =
+        smoothed_figures(*result.smoothed, result.config, result.recording, result.smoothed_evaluation);
   return result;
 }
 
@@ -50,6 +63,7 @@ Result<void> write_results(const RunResult& result, const std::filesystem::path&
       !written)
     return written;
   if (auto written = write_maps(result, folder); !written) return written;
+  if (auto written = write_smoothed(result, folder); !written) return written;
   Config config = result.config;
   if (auto written = write_file(folder / "config.yaml", describe(config).to_yaml()); !written) return written;
   if (auto written = write_file(folder / "metrics.json", to_json(result.metrics)); !written) return written;

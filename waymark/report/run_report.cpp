@@ -191,6 +191,7 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.command = command;
   run.config_yaml = describe(config).to_yaml();
   run.path = path_of(result.recording.trajectory, anchor(result), clock);
+  if (result.smoothed) run.smoothed = path_of(result.smoothed->trajectory, anchor(result), clock);
   run.alignment = alignment_of(result);
   run.landmarks = landmarks_of(result);
   run.errors = errors_of(result, clock);

@@ -65,6 +65,7 @@ Schema describe(Config& config) {
   describe(schema, config.tracker);
   describe(schema, config.search);
   describe(schema, config.fastslam);
+  describe(schema, config.smooth);
   sim::describe(schema, config.sim);
   return schema;
 }

@@ -19,6 +19,7 @@
 #include "waymark/models/odometry.hpp"
 #include "waymark/sim/options.hpp"
 #include "waymark/slam/pipeline.hpp"
+#include "waymark/slam/smooth_options.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/tracker.hpp"
 
@@ -53,6 +54,7 @@ struct Config {
   vision::TrackerOptions tracker;
   vision::SearchOptions search;
   FastSlamOptions fastslam;
+  SmoothOptions smooth;
   sim::SimOptions sim;
 };
 

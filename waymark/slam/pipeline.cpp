@@ -122,7 +122,7 @@ void Pipeline::process_front_group() {
     }
   }
   const Correction* correction = correct();
-  Step step{stamp, filter_.pose(), dead_reckoning_, correction, picture_.get(), {}};
+  Step step{stamp, filter_.pose(), dead_reckoning_, motion_, batch_, correction, picture_.get(), {}};
   cpu_since_correction_ += thread_cpu_time() - start;
   if (correction != nullptr) step.cpu = std::exchange(cpu_since_correction_, Duration{0});
   processed_ = stamp;
@@ -144,10 +144,10 @@ const Correction* Pipeline::correct() {
 }
 
 void Pipeline::predict(Stamp stamp) {
-  const Motion motion = odometer_.advance(stamp, next_odometry());
-  if (is_still(motion)) return;
-  dead_reckoning_ = dead_reckoning_ * motion.increment;
-  filter_.predict(motion);
+  motion_ = odometer_.advance(stamp, next_odometry());
+  if (is_still(motion_)) return;
+  dead_reckoning_ = dead_reckoning_ * motion_.increment;
+  filter_.predict(motion_);
 }
 
 void Pipeline::collect(const Observations& observations) {

@@ -3,6 +3,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "waymark/core/event.hpp"
@@ -27,10 +28,12 @@ void describe(Schema& schema, PipelineOptions& options);
 struct Step {
   Stamp stamp;
   PoseEstimate pose;
-  Pose2 dead_reckoning;                    ///< the odometry alone, from the origin
-  const Correction* correction = nullptr;  ///< null: nothing was observed. Valid during the call only.
-  const GreyImage* picture = nullptr;      ///< what the front end looked into, if anything. Likewise.
-  Duration cpu{0};                         ///< of this thread in the filter since the last correction
+  Pose2 dead_reckoning;                       ///< the odometry alone, from the origin
+  Motion motion;                              ///< of the odometry since the step before
+  std::span<const Observation> observations;  ///< as the filter got them. Valid during the call only.
+  const Correction* correction = nullptr;     ///< null: nothing was observed. Valid during the call only.
+  const GreyImage* picture = nullptr;         ///< what the front end looked into, if anything. Likewise.
+  Duration cpu{0};                            ///< of this thread in the filter since the last correction
 };
 
 /// What was not used, and why.
@@ -93,6 +96,7 @@ class Pipeline {
   std::shared_ptr<const GreyImage> picture_;  // of the stamp that is being processed
   std::shared_ptr<const GreyImage> last_picture_;
   Pose2 dead_reckoning_;
+  Motion motion_;  // to the stamp that is being processed
   Duration cpu_since_correction_{0};
   bool odometry_seen_ = false;
   PipelineCounts counts_;

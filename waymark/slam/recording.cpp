@@ -38,6 +38,17 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   return lines;
 }
 
+/// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
+void keep_for_smoothing(Recording& recording, const Step& step) {
+  recording.motions.push_back(step.motion);
+  if (step.correction == nullptr || step.correction->innovations.size() != step.observations.size()) return;
+  for (std::size_t i = 0; i < step.observations.size(); ++i) {
+    const Innovation& innovation = step.correction->innovations[i];
+    recording.sightings.push_back(
+        {recording.trajectory.size() - 1, innovation.landmark, innovation.outcome, step.observations[i]});
+  }
+}
+
 /// Keeps what the pipeline reports.
 void keep(Recording& recording, const Step& step, const CameraFrontEnd* front_end) {
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
@@ -141,7 +152,11 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   const auto front_end = make_front_end(config, *recording.filter);
   Pipeline pipeline(
       *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
-      [&](const Step& step) { keep(recording, step, front_end.get()); }, front_end.get());
+      [&](const Step& step) {
+        keep(recording, step, front_end.get());
+        if (config.smooth.run) keep_for_smoothing(recording, step);
+      },
+      front_end.get());
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
     return route(std::move(event), config, recording, pipeline);

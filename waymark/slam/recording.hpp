@@ -24,11 +24,21 @@ struct Recording {
     Duration cpu;  ///< filter time of this thread from one correction to the next
   };
 
+  /// An observation as the filter got it, with the landmark that it was taken for.
+  struct Sighting {
+    std::size_t step;  ///< index in `trajectory`
+    LandmarkId landmark;
+    Outcome outcome;
+    Observation observation;
+  };
+
   Trajectory trajectory;      ///< causal, with covariance
   Trajectory dead_reckoning;  ///< odometry alone, from the origin
   std::vector<std::pair<Stamp, Truth>> truth;
   std::vector<TimedInnovation> innovations;
   std::vector<TimedCost> steps;
+  std::vector<Motion> motions;      ///< to each point of the trajectory; kept where smooth.run is set,
+  std::vector<Sighting> sightings;  ///< as are these
   std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into pictures for it
   FilmStrip film;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one

@@ -6,16 +6,30 @@
 namespace waymark::study {
 namespace {
 
-void score(ScoredRun& run) {
+eval::TruthTrack truth_of(const Recording& recording) {
   std::vector<eval::TruthSample> samples;
-  for (const auto& [stamp, truth] : run.recording.truth) samples.push_back({stamp, truth});
-  run.truth = eval::TruthTrack(std::move(samples));
-  if (run.truth.empty() && run.log.landmarks.empty()) return;
+  for (const auto& [stamp, truth] : recording.truth) samples.push_back({stamp, truth});
+  return eval::TruthTrack(std::move(samples));
+}
+
+/// Nothing where the log has no ground truth.
+std::optional<eval::Evaluation> score(const ScoredRun& run, const Trajectory& trajectory,
+                                      const std::vector<LandmarkEstimate>& map) {
+  if (run.truth.empty() && run.log.landmarks.empty()) return std::nullopt;
   eval::EvaluateOptions options;
   if (run.log.truth_sensor_m) options.associate.truth_sensor_m = *run.log.truth_sensor_m;
-  const auto map = run.recording.filter->snapshot().landmarks;
-  run.evaluation = eval::evaluate(run.recording.trajectory, map, run.truth, run.log.landmarks,
-                                  run.recording.dead_reckoning, options);
+  return eval::evaluate(trajectory, map, run.truth, run.log.landmarks, run.recording.dead_reckoning, options);
+}
+
+/// A run that cannot be smoothed keeps why in its notes.
+void smooth_run(ScoredRun& run) {
+  auto smoothed = smooth::smooth(run.recording, run.config);
+  if (!smoothed) {
+    run.recording.notes.push_back(smoothed.error().message);
+    return;
+  }
+  run.smoothed_evaluation = score(run, smoothed->trajectory, smoothed->landmarks);
+  run.smoothed = *std::move(smoothed);
 }
 
 }  // namespace
@@ -26,8 +40,10 @@ Result<ScoredRun> run_and_score(const std::string& input, const UserSettings& us
   if (!opened) return opened.error();
   auto recording = record(*opened->source, opened->config, span, keep_going);
   if (!recording) return recording.error();
-  ScoredRun run{input, opened->config, opened->source->info(), std::move(*recording), {}, {}};
-  score(run);
+  ScoredRun run{input, opened->config, opened->source->info(), std::move(*recording), {}, {}, {}, {}};
+  run.truth = truth_of(run.recording);
+  run.evaluation = score(run, run.recording.trajectory, run.recording.filter->snapshot().landmarks);
+  if (run.config.smooth.run) smooth_run(run);
   return run;
 }
 

@@ -7,6 +7,7 @@
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/slam/config.hpp"
 #include "waymark/slam/recording.hpp"
+#include "waymark/smooth/smoother.hpp"
 
 namespace waymark::study {
 
@@ -18,6 +19,8 @@ struct ScoredRun {
   Recording recording;
   eval::TruthTrack truth;
   std::optional<eval::Evaluation> evaluation;  ///< where the log has ground truth for path or map
+  std::optional<smooth::Smoothed> smoothed;    ///< where smooth.run asks for it
+  std::optional<eval::Evaluation> smoothed_evaluation;
 };
 
 /// Opens an input, runs the filter over it and scores the result. A log that breaks off half-way gives what

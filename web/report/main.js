@@ -5,7 +5,7 @@ import { choice, h, section } from "./dom.js";
 import { FilmPanel } from "./film.js";
 import { MapPanel } from "./map.js";
 import { comparison, pageHeader, runSummary, tiles } from "./summary.js";
-import { blockTable, metricsTables, notesPanel, reproduce } from "./tables.js";
+import { blockTable, metricsTables, notesPanel, reproduce, smoothedPanel } from "./tables.js";
 import { runColor } from "./theme.js";
 import { Timeline } from "./timeline.js";
 
@@ -97,6 +97,7 @@ class Report {
         innovations?.histogram?.density?.length ? keep(innovationHistogram(innovations.histogram, color)) : null),
       section("Time", "grid", filled(steps) ? keep(stepChart(this.timeline, steps, run.metrics?.step_us, color)) : null,
         run.blocks?.length ? blockTable(run.blocks) : null),
+      section("With the whole log", "stack", run.metrics?.smoothed ? smoothedPanel(run.metrics.smoothed, run.metrics.truth) : null),
       section("Details", "stack", run.metrics && Object.keys(run.metrics).length ? metricsTables(run.metrics) : null,
         run.command || run.config_yaml ? reproduce(run) : null),
     ];

@@ -17,7 +17,8 @@ export class MapPanel {
     this.view = new MapView();
     this.selected = 0;
     this.aligned = false;
-    this.shown = { truth: true, dead_reckoning: true, landmarks: true, ellipses: true, true_landmarks: true };
+    this.shown = { truth: true, dead_reckoning: true, landmarks: true, ellipses: true, true_landmarks: true,
+      smoothed: true };
     this.shown_runs = data.runs.map(() => true);
     this.time = null;
     this.box = null;
@@ -47,6 +48,7 @@ export class MapPanel {
       ...runs.map(({ run, i }) => toggleButton(
         h("span", {}, h("span", { class: "swatch", style: `--swatch: var(--${runColor(i)})` }), run.name || run.filter || "Estimate"),
         true, (on) => { this.shown_runs[i] = on; this.draw(); })),
+      this.data.runs.some((run) => run.smoothed?.t?.length) ? layer("smoothed", "By the whole log", { color: "smoothed" }) : null,
       landmarks ? layer("landmarks", "Landmarks", { color: "landmark", shape: "dot" }) : null,
       landmarks ? layer("ellipses", "2σ", { color: "landmark", shape: "ring" }) : null,
       this.data.truth_landmarks?.length ? layer("true_landmarks", "True landmarks", { color: "truth", shape: "cross" }) : null,
@@ -76,6 +78,7 @@ export class MapPanel {
       const transform = this.aligned ? run.alignment : null;
       return {
         path: transformPath(run.path ?? { t: [], x: [], y: [] }, transform),
+        smoothed: transformPath(run.smoothed ?? { t: [], x: [], y: [] }, transform),
         landmarks: (run.landmarks ?? []).map((landmark) => transformLandmark(landmark, transform)),
       };
     });
@@ -85,7 +88,7 @@ export class MapPanel {
     const bounds = boundsOf([this.truth, ...this.runs.map((run) => run.path)]);
     // Canvas paths hold single precision: keep their numbers small.
     this.origin = bounds ? [(bounds.left + bounds.right) / 2, (bounds.bottom + bounds.top) / 2] : [0, 0];
-    this.strokes = new Map([this.truth, this.dead_reckoning, ...this.runs.map((run) => run.path)]
+    this.strokes = new Map([this.truth, this.dead_reckoning, ...this.runs.flatMap((run) => [run.path, run.smoothed])]
       .map((path) => [path, this.strokeOf(path)]));
   }
 
@@ -146,6 +149,8 @@ export class MapPanel {
     if (this.shown.dead_reckoning) this.paintPath(ctx, this.dead_reckoning, "dead-reckoning", 1.25, [5, 4]);
     if (this.shown.truth) this.paintPath(ctx, this.truth, "truth", 1.5);
     this.inDrawingOrder().forEach((i) => this.paintRun(ctx, i));
+    if (this.shown.smoothed && this.shown_runs[this.selected])
+      this.paintPath(ctx, this.runs[this.selected].smoothed, "smoothed", 1.25);
     if (this.shown.true_landmarks) this.paintTrueLandmarks(ctx);
     this.paintEnds(ctx);
     this.paintMoment(ctx);
@@ -518,6 +523,7 @@ export class MapPanel {
       ...(this.shown.dead_reckoning ? [["Odometry alone", this.dead_reckoning]] : []),
       ...(this.shown.truth ? [["Truth", this.truth]] : []),
       ...this.inDrawingOrder().map((i) => [this.data.runs[i].name || "Estimate", this.runs[i].path]),
+      ...(this.shown.smoothed && this.shown_runs[this.selected] ? [["By the whole log", this.runs[this.selected].smoothed]] : []),
     ];
     const [x, y] = this.view.world(px, py);
     let best = null;

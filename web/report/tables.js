@@ -32,7 +32,7 @@ export function blockTable(blocks) {
         h("td", {}))))));
 }
 
-const SHOWN_ELSEWHERE = new Set(["blocks"]);
+const SHOWN_ELSEWHERE = new Set(["blocks", "smoothed"]);
 const isTable = (value) => Array.isArray(value) && value.length > 0 && value.every(isGroup);
 const isGroup = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
 
@@ -69,6 +69,26 @@ export function metricsTables(metrics) {
     h("div", { class: "metric-groups" },
       tables.filter(([, rows]) => rows.length > 0).map(([name, rows]) => pairsTable(name, rows))),
     ...lists.map(([name, rows]) => rowsTable(name, rows)));
+}
+
+const DISTANCES = [
+  ["Path, from the same start", "position_rmse_m", "m"],
+  ["Path, aligned", "position_rmse_aligned_m", "m"],
+  ["Heading", "heading_rmse_deg", "deg"],
+  ["Landmarks", "landmark_rmse_m", "m"],
+];
+
+// How far the live answer was from what the whole log allows, and both from the truth.
+export function smoothedPanel(smoothed, truth) {
+  const columns = [["live from smoothed", smoothed.live], ["live from truth", smoothed.truth ? truth : null],
+    ["smoothed from truth", smoothed.truth]].filter(([, values]) => values);
+  const rows = DISTANCES.filter(([, key]) => columns.some(([, values]) => format.isNumber(values[key])));
+  return panel("By the whole log", { note: `${format.count(smoothed.poses)} poses and ${format.count(smoothed.sightings)} sightings`
+      + ` estimated at once in ${format.plain(smoothed.cpu_s, 2)} s${smoothed.converged ? "" : ", not converged"}` },
+    h("table", {}, h("thead", {}, h("tr", {}, h("th", {}, "RMS distance"), columns.map(([name]) => h("th", { class: "num" }, name)))),
+      h("tbody", {}, rows.map(([name, key, unit]) => h("tr", {}, h("th", { scope: "row" }, `${name} (${unit})`),
+        columns.map(([, values]) => h("td", { class: "num" }, metricText(values[key]))))))),
+    Object.keys(smoothed.calibration ?? {}).length ? pairsTable("What the sensors were like", Object.entries(smoothed.calibration)) : null);
 }
 
 export function notesPanel(notes) {

@@ -1,0 +1,97 @@
+#include "waymark/smooth/factors.hpp"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "support/matrix_near.hpp"
+#include "support/numeric_jacobian.hpp"
+#include "support/poses.hpp"
+
+namespace waymark::smooth {
+namespace {
+
+using test::matrix_near;
+using test::numeric_jacobian;
+using test::random_pose;
+using test::to_pose;
+using test::to_vector;
+
+Calibration random_calibration(RandomStream& random) {
+  Calibration c;
+  for (auto& entry : c) entry = random.uniform(-0.1, 0.1);
+  return c;
+}
+
+void expect_jacobians_of_leg(bool in_units, RandomStream& random) {
+  const Pose2 before = random_pose(random), after = random_pose(random);
+  const Leg leg{{{{0.3, 0.0, 0.2}, 0.1}, {{0.2, 0.1, -0.4}, 0.2}}};
+  const Calibration c = random_calibration(random);
+  const auto factor_at = [&](const Pose2& a, const Pose2& b, const Calibration& v) {
+    const LegFactor factor = linearize_leg(a, b, motion_of(leg, v));
+    return in_units ? in_units_of_odometry(factor, v) : factor;
+  };
+  const LegFactor factor = factor_at(before, after, c);
+  const auto of_before = [&](const Eigen::Vector3d& v) { return factor_at(to_pose(v), after, c).residual; };
+  const auto of_after = [&](const Eigen::Vector3d& v) { return factor_at(before, to_pose(v), c).residual; };
+  const auto of_calibration = [&](const Calibration& v) { return factor_at(before, after, v).residual; };
+  EXPECT_TRUE(matrix_near(factor.J_before, numeric_jacobian(of_before, to_vector(before)), 1e-7));
+  EXPECT_TRUE(matrix_near(factor.J_after, numeric_jacobian(of_after, to_vector(after)), 1e-7));
+  EXPECT_TRUE(matrix_near(factor.J_calibration, numeric_jacobian(of_calibration, c), 1e-7));
+}
+
+TEST(LegFactor, JacobiansAgreeWithCentralDifferences) {
+  RandomStream random(3, StreamPurpose::kWorld);
+  for (int i = 0; i < 50; ++i)
+    for (const bool in_units : {false, true}) expect_jacobians_of_leg(in_units, random);
+}
+
+TEST(LegFactor, IsZeroWhereTheOdometryIsRight) {
+  const Pose2 before{1.0, 2.0, 3.0}, moved{0.5, 0.1, -0.7};
+  EXPECT_TRUE(
+      matrix_near(linearize_leg(before, before * moved, {moved}).residual, Eigen::Vector3d::Zero(), 1e-14));
+}
+
+std::vector<Sighting> all_kinds() {
+  Eigen::Matrix2d R;
+  R << 0.04, 0.01, 0.01, 0.09;
+  return {{0, 0, RangeBearing{5.0, 0.3}, R}, {0, 0, Range{5.0}, R}, {0, 0, Bearing{0.3}, R}};
+}
+
+TEST(SightingFactor, JacobiansAgreeWithCentralDifferences) {
+  RandomStream random(4, StreamPurpose::kWorld);
+  const Pose2 mount{0.4, -0.2, 0.5};
+  for (int i = 0; i < 50; ++i) {
+    const Pose2 pose = random_pose(random);
+    const Eigen::Vector2d p = pose * Eigen::Vector2d(random.uniform(2.0, 6.0), random.uniform(-5.0, 5.0));
+    const Calibration c = random_calibration(random);
+    for (const Sighting& z : all_kinds()) {
+      const SightingFactor factor = linearize_sighting(z, pose, mount, p, c);
+      const auto residual = [&](const Pose2& T, const Eigen::Vector2d& q, const Calibration& v) {
+        return linearize_sighting(z, T, mount, q, v).residual;
+      };
+      const auto of_pose = [&](const Eigen::Vector3d& v) { return residual(to_pose(v), p, c); };
+      const auto of_landmark = [&](const Eigen::Vector2d& v) { return residual(pose, v, c); };
+      const auto of_calibration = [&](const Calibration& v) { return residual(pose, p, v); };
+      EXPECT_TRUE(matrix_near(factor.J_pose, numeric_jacobian(of_pose, to_vector(pose)), 1e-6));
+      EXPECT_TRUE(matrix_near(factor.J_landmark, numeric_jacobian(of_landmark, p), 1e-6));
+      EXPECT_TRUE(matrix_near(factor.J_calibration, numeric_jacobian(of_calibration, c), 1e-6));
+    }
+  }
+}
+
+TEST(SightingFactor, CountsInStandardDeviations) {
+  Eigen::Matrix2d R;
+  R << 0.04, 0.01, 0.01, 0.09;
+  const Eigen::Vector2d p(5.5, 0.0);  // half a metre farther and 0.1 rad more to the right than measured
+  const auto both = linearize_sighting({0, 0, RangeBearing{5.0, 0.1}, R}, {}, {}, p, Calibration::Zero());
+  const Eigen::Vector2d nu(0.5, -0.1);
+  EXPECT_EQ(both.dof, 2);
+  EXPECT_NEAR(both.residual.squaredNorm(), nu.dot(R.inverse() * nu), 1e-12);
+  const auto range = linearize_sighting({0, 0, Range{5.0}, R}, {}, {}, p, Calibration::Zero());
+  EXPECT_EQ(range.dof, 1);
+  EXPECT_NEAR(range.residual[0], 2.5, 1e-12);
+  EXPECT_EQ(linearize_sighting({0, 0, Range{5.0}, R}, {}, {}, {0.0, 0.0}, Calibration::Zero()).dof, 0);
+}
+
+}  // namespace
+}  // namespace waymark::smooth

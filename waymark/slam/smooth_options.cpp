@@ -1,0 +1,25 @@
+#include "waymark/slam/smooth_options.hpp"
+
+namespace waymark {
+
+void describe(Schema& schema, SmoothOptions& o) {
+  schema.boolean("smooth.run", o.run,
+                 "estimate the whole path and map once more, from the whole log, when it has ended");
+  schema.real("smooth.robust_dof", o.robust_dof, {1.0, 1e6},
+              "degrees of freedom of the Student-t distribution of all errors there: the fewer, the less "
+              "outliers count");
+  schema.integer("smooth.most_iterations", o.most_iterations, {1, 1000}, "when to stop at the latest");
+  schema.boolean("smooth.odometry_is_commanded", o.odometry_is_commanded,
+                 "what is logged are commands, from which the robot strays; else it was measured, and it is "
+                 "the measurements that err");
+  schema.real(
+      "smooth.speed_scale_sigma", o.speed_scale_sigma, {0.0, 1.0},
+      "standard deviation of the true distance per measured distance, which is estimated; 0: it is 1");
+  schema.real("smooth.turn_scale_sigma", o.turn_scale_sigma, {0.0, 1.0},
+              "the same of the true turn per measured turn");
+  schema.real("smooth.turn_bias_sigma_degps", o.turn_bias_sigma_degps, {0.0, 100.0},
+              "the same of what the odometry turns by itself while the robot moves, degrees per second; 0: "
+              "nothing");
+}
+
+}  // namespace waymark

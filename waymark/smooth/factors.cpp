@@ -1,0 +1,100 @@
+#include "waymark/smooth/factors.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "waymark/models/observation_models.hpp"
+
+namespace waymark::smooth {
+namespace {
+
+/// Predicted range and bearing of a calibrated sensor, less what was measured of them.
+struct Predicted {
+  Eigen::Vector2d residual;
+  Linearization<2> model;
+  Eigen::Matrix<double, 2, kCalibrationSize> J_calibration;
+};
+
+Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, const Pose2& T_robot_sensor,
+                  const Eigen::Vector2d& p_world, const Calibration& c) {
+  Predicted predicted;
+  predicted.model = RangeBearingModel::linearize(T_world_robot, T_robot_sensor, p_world);
+  const double distance_m = predicted.model.predicted[0];
+  const double scale = 1.0 + c[kRangeScale];
+  predicted.residual = {scale * distance_m + c[kRangeOffset] - measured[0],
+                        wrap_angle(predicted.model.predicted[1] + c[kBearingOffset] - measured[1])};
+  predicted.model.H_pose.row(0) *= scale;
+  predicted.model.H_landmark.row(0) *= scale;
+  predicted.J_calibration.setZero();
+  predicted.J_calibration(0, kRangeScale) = distance_m;
+  predicted.J_calibration(0, kRangeOffset) = 1.0;
+  predicted.J_calibration(1, kBearingOffset) = 1.0;
+  return predicted;
+}
+
+/// Rows of a prediction, divided by the square root of their covariance.
+template <int Dim>
+SightingFactor whiten(const Predicted& predicted, Eigen::Index first_row,
+                      const Eigen::Matrix<double, Dim, Dim>& covariance) {
+  const Eigen::LLT<Eigen::Matrix<double, Dim, Dim>> root(covariance);
+  const auto divide = [&](const auto& rows) {
+    return root.matrixL().solve(rows.template middleRows<Dim>(first_row)).eval();
+  };
+  SightingFactor factor;
+  factor.dof = Dim;
+  factor.residual.template head<Dim>() = divide(predicted.residual);
+  factor.J_pose.template topRows<Dim>() = divide(predicted.model.H_pose);
+  factor.J_landmark.template topRows<Dim>() = divide(predicted.model.H_landmark);
+  factor.J_calibration.template topRows<Dim>() = divide(predicted.J_calibration);
+  return factor;
+}
+
+using Scalar = Eigen::Matrix<double, 1, 1>;
+
+}  // namespace
+
+LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
+                        const CalibratedMotion& measured) {
+  const Pose2 between = T_world_before.inverse() * T_world_after;
+  const Eigen::Matrix2d Rt = T_world_before.rotation().transpose();
+  LegFactor factor;
+  factor.residual = difference(between, measured.increment);
+  factor.J_after.setIdentity();
+  factor.J_after.topLeftCorner<2, 2>() = Rt;
+  factor.J_before = -factor.J_after;
+  factor.J_before.topRightCorner<2, 1>() = -perpendicular(between.position());
+  factor.J_calibration = -measured.J;
+  return factor;
+}
+
+LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration) {
+  const double longer = 1.0 + calibration[kSpeedScale];
+  const double turning_more = 1.0 + calibration[kTurnScale];
+  const Eigen::Vector3d unit(1.0 / longer, 1.0 / longer, 1.0 / turning_more);
+  factor.residual = unit.asDiagonal() * factor.residual;
+  factor.J_before = unit.asDiagonal() * factor.J_before;
+  factor.J_after = unit.asDiagonal() * factor.J_after;
+  factor.J_calibration = unit.asDiagonal() * factor.J_calibration;
+  factor.J_calibration.col(kSpeedScale).head<2>() -= factor.residual.head<2>() / longer;
+  factor.J_calibration(2, kTurnScale) -= factor.residual[2] / turning_more;
+  return factor;
+}
+
+SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
+                                  const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
+                                  const Calibration& calibration) {
+  const Pose2 T_world_sensor = T_world_robot * T_robot_sensor;
+  if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
+  const auto predicted = [&](double range_m, double bearing_rad) {
+    return predict({range_m, bearing_rad}, T_world_robot, T_robot_sensor, p_world, calibration);
+  };
+  const Eigen::Matrix2d& R = sighting.covariance;
+  if (const auto* z = std::get_if<RangeBearing>(&sighting.value))
+    return whiten<2>(predicted(z->range_m, z->bearing_rad), 0, R);
+  if (const auto* z = std::get_if<Range>(&sighting.value))
+    return whiten<1>(predicted(z->range_m, 0.0), 0, Scalar(R(0, 0)));
+  if (const auto* z = std::get_if<Bearing>(&sighting.value))
+    return whiten<1>(predicted(0.0, z->bearing_rad), 1, Scalar(R(0, 0)));
+  return {};
+}
+
+}  // namespace waymark::smooth

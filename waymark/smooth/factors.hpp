@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "waymark/smooth/graph.hpp"
+
+namespace waymark::smooth {
+
+/// What two poses say about a motion between them, in the frame of the first: residual = estimated - measured
+/// in (x, y, theta), and its Jacobians.
+struct LegFactor {
+  Eigen::Vector3d residual;
+  Eigen::Matrix3d J_before, J_after;
+  Eigen::Matrix<double, 3, kCalibrationSize> J_calibration;
+};
+
+[[nodiscard]] LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
+                                      const CalibratedMotion& measured);
+
+/// The same in the units that the odometry counts in. Where these measurements are what errs, a residual of
+/// what a calibration makes of them shrinks with its scales, and by it the scales would be found too small.
+[[nodiscard]] LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration);
+
+/// Residual = predicted - measured of a sighting and its Jacobians, in units of its standard deviations. Of
+/// sightings with one number the second row is zero.
+struct SightingFactor {
+  int dof = 0;
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3> J_pose = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix2d J_landmark = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 2, kCalibrationSize> J_calibration =
+      Eigen::Matrix<double, 2, kCalibrationSize>::Zero();
+};
+
+/// Nothing (0 degrees of freedom) where the landmark lies in the sensor.
+[[nodiscard]] SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
+                                                const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
+                                                const Calibration& calibration);
+
+}  // namespace waymark::smooth

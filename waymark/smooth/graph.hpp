@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "waymark/core/motion.hpp"
+#include "waymark/core/observation.hpp"
+#include "waymark/smooth/calibration.hpp"
+
+namespace waymark::smooth {
+
+/// A step of the odometry.
+struct OdometryStep {
+  Pose2 increment;
+  double dt_s = 0.0;
+};
+
+/// What leads from one pose to the next: steps of the odometry, and the covariance of their sum.
+struct Leg {
+  std::vector<OdometryStep> steps;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// One sighting of a landmark; its covariance in the layout of Observation::covariance.
+struct Sighting {
+  int pose = 0;
+  int landmark = 0;
+  Measurement value;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+};
+
+/// Poses, landmarks and what the sensors were like.
+struct Estimate {
+  std::vector<Pose2> poses;
+  std::vector<Eigen::Vector2d> landmarks;
+  Calibration calibration = Calibration::Zero();
+};
+
+/// Everything that one log says: legs that join poses (one fewer than these), and sightings of landmarks.
+struct Graph {
+  Pose2 T_robot_sensor;
+  std::vector<Leg> legs;
+  std::vector<Sighting> sightings;
+  Calibration calibration_sigmas = Calibration::Zero();  ///< before the log; 0: is not estimated
+  bool odometry_is_commanded = false;  ///< a robot strays from commands; measurements stray from a robot
+  /// How far, as a standard deviation, landmarks may be from where they start: what few bearings or ranges do
+  /// not fix would go far.
+  double landmark_sigma_m = 1e3;
+};
+
+/// The motion of a leg by a calibration.
+[[nodiscard]] CalibratedMotion motion_of(const Leg& leg, const Calibration& calibration);
+
+}  // namespace waymark::smooth

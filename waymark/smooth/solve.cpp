@@ -1,0 +1,313 @@
+#include "waymark/smooth/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "waymark/smooth/factors.hpp"
+#include "waymark/smooth/selected_inverse.hpp"
+
+namespace waymark::smooth {
+namespace {
+
+// Odometry that claims to be better than this in some direction is not.
+constexpr double kLeastLegSigma_m = 1e-4;
+constexpr double kLeastLegSigma_rad = 1e-5;
+
+/// Student-t: the cost of a squared error, and its weight.
+struct Robust {
+  double dof;
+  [[nodiscard]] double cost(double squared, int dimension) const {
+    return (dof + dimension) * std::log1p(squared / dof);
+  }
+  [[nodiscard]] double weight(double squared, int dimension) const {
+    return (dof + dimension) / (dof + squared);
+  }
+};
+
+/// Where the variables of a graph stand in the vector of all. The first pose is none.
+class Layout {
+ public:
+  Layout(const Graph& graph, const Estimate& estimate)
+      : landmarks_(3 * (std::ssize(estimate.poses) - 1)),
+        calibration_(landmarks_ + 2 * std::ssize(estimate.landmarks)),
+        size_(calibration_) {
+    for (Eigen::Index i = 0; i < kCalibrationSize; ++i)
+      if (graph.calibration_sigmas[i] > 0.0) estimated_.push_back(i);
+    size_ += std::ssize(estimated_);
+  }
+
+  [[nodiscard]] static Eigen::Index pose(std::size_t index) {
+    return 3 * (static_cast<Eigen::Index>(index) - 1);
+  }
+  [[nodiscard]] Eigen::Index landmark(std::size_t index) const {
+    return landmarks_ + 2 * static_cast<Eigen::Index>(index);
+  }
+  [[nodiscard]] Eigen::Index calibration() const { return calibration_; }
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  /// Which parts of the calibration are variables.
+  [[nodiscard]] const std::vector<Eigen::Index>& estimated() const { return estimated_; }
+
+ private:
+  Eigen::Index landmarks_;
+  Eigen::Index calibration_;
+  Eigen::Index size_;
+  std::vector<Eigen::Index> estimated_;
+};
+
+/// Sums up J^T J and J^T r of all factors.
+class NormalEquations {
+ public:
+  explicit NormalEquations(const Layout& layout)
+      : layout_(layout), g_(Eigen::VectorXd::Zero(layout.size())) {}
+
+  /// A block of columns of a factor's Jacobian; `at` < 0: it is no variable.
+  template <int Rows, int Columns>
+  struct Block {
+    Eigen::Index at;
+    Eigen::Matrix<double, Rows, Columns> J;
+  };
+
+  /// Blocks in any order.
+  template <class Residual, class... Blocks>
+  void add(double weight, const Residual& residual, const Blocks&... blocks) {
+    (add_row(weight, residual, blocks, blocks...), ...);
+  }
+
+  /// A prior on one variable.
+  void add_prior(Eigen::Index at, double residual, double information) {
+    entries_.emplace_back(static_cast<int>(at), static_cast<int>(at), information);
+    g_[at] += information * residual;
+  }
+
+  [[nodiscard]] SparseMatrix H() const {
+    SparseMatrix H(layout_.size(), layout_.size());
+    H.setFromTriplets(entries_.begin(), entries_.end());
+    return H;
+  }
+  [[nodiscard]] const Eigen::VectorXd& g() const { return g_; }
+
+  /// The columns of a calibration that are variables.
+  template <int Rows>
+  [[nodiscard]] Block<Rows, Eigen::Dynamic> calibration(
+      const Eigen::Matrix<double, Rows, kCalibrationSize>& J) const {
+    return {layout_.calibration(), J(Eigen::all, layout_.estimated())};
+  }
+
+ private:
+  template <class Residual, class Row, class... Blocks>
+  void add_row(double weight, const Residual& residual, const Row& row, const Blocks&... blocks) {
+    if (row.at < 0) return;
+    const auto Jt = (weight * row.J.transpose()).eval();
+    g_.segment(row.at, Jt.rows()) += Jt * residual;
+    (add_product(row.at, Jt, blocks), ...);
+  }
+
+  template <class Transposed, class Column>
+  void add_product(Eigen::Index row, const Transposed& Jt, const Column& column) {
+    if (column.at < 0 || column.at > row) return;
+    const auto product = (Jt * column.J).eval();
+    for (Eigen::Index j = 0; j < product.cols(); ++j)
+      for (Eigen::Index i = column.at == row ? j : 0; i < product.rows(); ++i)
+        entries_.emplace_back(static_cast<int>(row + i), static_cast<int>(column.at + j), product(i, j));
+  }
+
+  const Layout& layout_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::VectorXd g_;
+};
+
+template <int Rows, int Columns>
+NormalEquations::Block<Rows, Columns> block(Eigen::Index at, const Eigen::Matrix<double, Rows, Columns>& J) {
+  return {at, J};
+}
+
+/// An estimate on its way to the optimum.
+class Solver {
+ public:
+  Solver(const Graph& graph, Estimate start, const SolveOptions& options)
+      : graph_(graph),
+        estimate_(std::move(start)),
+        landmarks_before_(estimate_.landmarks),
+        options_(options),
+        robust_{options.robust_dof},
+        layout_(graph, estimate_) {
+    for (const Leg& leg : graph.legs) {
+      Eigen::Matrix3d Q = leg.covariance;
+      const Eigen::Vector3d least(kLeastLegSigma_m, kLeastLegSigma_m, kLeastLegSigma_rad);
+      Q.diagonal() += least.cwiseAbs2();
+      leg_information_.emplace_back(Q.llt().solve(Eigen::Matrix3d::Identity()));
+    }
+  }
+
+  Solution run() {
+    Solution solution;
+    solution.cost_before = solution.cost = cost(estimate_);
+    for (; solution.iterations < options_.most_iterations && !solution.converged; ++solution.iterations)
+      solution.converged = !step(solution.cost);
+    add_covariances(solution);
+    solution.estimate = estimate_;
+    return solution;
+  }
+
+ private:
+  /// Goes one step down; false: there is no way down that is worth it.
+  bool step(double& cost_now) {
+    constexpr double kMostDamping = 1e8;
+    constexpr double kWorthIt = 1e-5;
+    const NormalEquations equations = linearize();
+    const SparseMatrix H = equations.H();
+    for (; damping_ < kMostDamping; damping_ *= 10.0) {
+      if (!factorize(H, damping_)) continue;
+      Estimate moved = moved_by(-factor_.solve(equations.g()));
+      const double cost_there = cost(moved);
+      if (!(cost_there < cost_now)) continue;
+      const bool worth_it = cost_now - cost_there > kWorthIt * cost_now;
+      estimate_ = std::move(moved);
+      cost_now = cost_there;
+      damping_ = std::max(1e-12, 0.1 * damping_);
+      return worth_it;
+    }
+    return false;
+  }
+
+  bool factorize(SparseMatrix H, double damping) {
+    H.diagonal() *= 1.0 + damping;
+    if (!analyzed_) factor_.analyzePattern(H);
+    analyzed_ = true;
+    factor_.factorize(H);
+    return factor_.info() == Eigen::Success && (factor_.vectorD().array() > 0.0).all();
+  }
+
+  [[nodiscard]] NormalEquations linearize() const {
+    NormalEquations equations(layout_);
+    for (std::size_t i = 0; i < graph_.legs.size(); ++i) add_leg(i, equations);
+    for (const Sighting& sighting : graph_.sightings) add_sighting(sighting, equations);
+    for (std::size_t i = 0; i < landmarks_before_.size(); ++i) add_prior(i, equations);
+    for (std::size_t i = 0; i < layout_.estimated().size(); ++i) {
+      const Eigen::Index which = layout_.estimated()[i];
+      const double sigma = graph_.calibration_sigmas[which];
+      equations.add_prior(layout_.calibration() + static_cast<Eigen::Index>(i), estimate_.calibration[which],
+                          1.0 / (sigma * sigma));
+    }
+    return equations;
+  }
+
+  void add_prior(std::size_t landmark, NormalEquations& equations) const {
+    const Eigen::Vector2d away_m = estimate_.landmarks[landmark] - landmarks_before_[landmark];
+    const double information = 1.0 / (graph_.landmark_sigma_m * graph_.landmark_sigma_m);
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+      equations.add_prior(layout_.landmark(landmark) + axis, away_m[axis], information);
+  }
+
+  void add_leg(std::size_t i, NormalEquations& equations) const {
+    const LegFactor f = factor_of_leg(estimate_, i);
+    const Eigen::Matrix3d& information = leg_information_[i];
+    const double weight = robust_.weight(f.residual.dot(information * f.residual), 3);
+    const Eigen::Matrix3d U = information.llt().matrixU();
+    equations.add(weight, (U * f.residual).eval(), block(Layout::pose(i), (U * f.J_before).eval()),
+                  block(Layout::pose(i + 1), (U * f.J_after).eval()),
+                  equations.calibration((U * f.J_calibration).eval()));
+  }
+
+  void add_sighting(const Sighting& sighting, NormalEquations& equations) const {
+    const SightingFactor f = factor_of(estimate_, sighting);
+    if (f.dof == 0) return;
+    equations.add(robust_.weight(f.residual.squaredNorm(), f.dof), f.residual,
+                  block(Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose),
+                  block(layout_.landmark(static_cast<std::size_t>(sighting.landmark)), f.J_landmark),
+                  equations.calibration(f.J_calibration));
+  }
+
+  [[nodiscard]] LegFactor factor_of_leg(const Estimate& at, std::size_t i) const {
+    const LegFactor factor =
+        linearize_leg(at.poses[i], at.poses[i + 1], motion_of(graph_.legs[i], at.calibration));
+    return graph_.odometry_is_commanded ? factor : in_units_of_odometry(factor, at.calibration);
+  }
+
+  [[nodiscard]] SightingFactor factor_of(const Estimate& at, const Sighting& sighting) const {
+    return linearize_sighting(sighting, at.poses[static_cast<std::size_t>(sighting.pose)],
+                              graph_.T_robot_sensor,
+                              at.landmarks[static_cast<std::size_t>(sighting.landmark)], at.calibration);
+  }
+
+  [[nodiscard]] double cost(const Estimate& at) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < graph_.legs.size(); ++i) {
+      const Eigen::Vector3d residual = factor_of_leg(at, i).residual;
+      sum += robust_.cost(residual.dot(leg_information_[i] * residual), 3);
+    }
+    for (const Sighting& sighting : graph_.sightings) {
+      const SightingFactor f = factor_of(at, sighting);
+      sum += robust_.cost(f.residual.squaredNorm(), f.dof);
+    }
+    for (std::size_t i = 0; i < landmarks_before_.size(); ++i)
+      sum += (at.landmarks[i] - landmarks_before_[i]).squaredNorm() /
+             (graph_.landmark_sigma_m * graph_.landmark_sigma_m);
+    for (const Eigen::Index i : layout_.estimated())
+      sum += std::pow(at.calibration[i] / graph_.calibration_sigmas[i], 2);
+    return sum;
+  }
+
+  [[nodiscard]] Estimate moved_by(const Eigen::VectorXd& delta) const {
+    Estimate moved = estimate_;
+    for (std::size_t i = 1; i < moved.poses.size(); ++i) {
+      const auto d = delta.segment<3>(Layout::pose(i));
+      Pose2& pose = moved.poses[i];
+      pose = {pose.x_m + d[0], pose.y_m + d[1], wrap_angle(pose.theta_rad + d[2])};
+    }
+    for (std::size_t i = 0; i < moved.landmarks.size(); ++i)
+      moved.landmarks[i] += delta.segment<2>(layout_.landmark(i));
+    moved.calibration(layout_.estimated()) += delta.tail(std::ssize(layout_.estimated()));
+    return moved;
+  }
+
+  void add_covariances(Solution& solution) {
+    if (layout_.size() == 0 || !factorize(linearize().H(), 0.0)) return;
+    const auto P = SelectedInverse::compute(factor_, options_.most_covariance_work);
+    if (!P) return;
+    solution.pose_covariances.emplace_back(Eigen::Matrix3d::Zero());
+    for (std::size_t i = 1; i < estimate_.poses.size(); ++i)
+      solution.pose_covariances.push_back(marginal<3>(*P, Layout::pose(i)));
+    for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
+      solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
+    for (std::size_t i = 0; i < layout_.estimated().size(); ++i)
+      solution.calibration_sigmas[layout_.estimated()[i]] =
+          std::sqrt(marginal<1>(*P, layout_.calibration() + static_cast<Eigen::Index>(i))(0));
+  }
+
+  template <int Size>
+  static Eigen::Matrix<double, Size, Size> marginal(const SelectedInverse& P, Eigen::Index at) {
+    Eigen::Matrix<double, Size, Size> block;
+    for (Eigen::Index i = 0; i < Size; ++i)
+      for (Eigen::Index j = 0; j < Size; ++j) block(i, j) = P(at + i, at + j);
+    return block;
+  }
+
+  const Graph& graph_;
+  Estimate estimate_;
+  std::vector<Eigen::Vector2d> landmarks_before_;
+  SolveOptions options_;
+  Robust robust_;
+  Layout layout_;
+  std::vector<Eigen::Matrix3d> leg_information_;
+  SparseCholesky factor_;
+  bool analyzed_ = false;
+  double damping_ = 1e-6;
+};
+
+}  // namespace
+
+CalibratedMotion motion_of(const Leg& leg, const Calibration& calibration) {
+  CalibratedMotion motion;
+  for (const OdometryStep& step : leg.steps)
+    motion = compose(motion, calibrate(step.increment, step.dt_s, calibration));
+  return motion;
+}
+
+Solution solve(const Graph& graph, Estimate start, const SolveOptions& options) {
+  return Solver(graph, std::move(start), options).run();
+}
+
+}  // namespace waymark::smooth

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "waymark/smooth/graph.hpp"
+
+namespace waymark::smooth {
+
+struct SolveOptions {
+  double robust_dof = 4.0;
+  int most_iterations = 50;
+  double most_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
+};
+
+/// The best estimate, how it was found, and how sure it is.
+struct Solution {
+  Estimate estimate;
+  int iterations = 0;
+  bool converged = false;
+  double cost_before = 0.0;  ///< minus twice the logarithm of the likelihood, but for a constant
+  double cost = 0.0;
+  /// Of each pose given the first, of each landmark and of what is calibrated; empty where that would have
+  /// taken too long.
+  std::vector<Eigen::Matrix3d> pose_covariances;
+  std::vector<Eigen::Matrix2d> landmark_covariances;
+  Calibration calibration_sigmas = Calibration::Zero();
+};
+
+/// Poses, landmarks and calibration by which all that the log says is likeliest (Dellaert and Kaess
+/// 2006): Levenberg's steps by sparse Cholesky factors in an order of least fill (Amestoy, Davis and Duff
+/// 1996), with errors of a Student-t distribution by weights (Lange, Little and Taylor 1989). The first
+/// pose stays where it is. About O(poses) per iteration.
+[[nodiscard]] Solution solve(const Graph& graph, Estimate start, const SolveOptions& options = {});
+
+}  // namespace waymark::smooth
