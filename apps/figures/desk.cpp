@@ -68,11 +68,14 @@ struct Frame {
   Duration matching_took{0};
 };
 
+/// Its camera is noisier and shakes more than what SearchOptions takes for granted.
+constexpr double kAcceptRatio = 4.0;
+
 /// Follows patches from picture to picture by the motion that they had before.
 class Follower {
  public:
   Follower(int width_px, int height_px)
-      : finder_({.patch_px = kPatch_px, .warp = false}, {},
+      : finder_({.patch_px = kPatch_px, .warp = false}, {.accept_ratio = kAcceptRatio},
                 Camera({.width_px = width_px, .height_px = height_px})),
         new_corners_({.wanted = 40, .most_new = 12}, {}, kPatch_px, width_px, height_px) {}
 

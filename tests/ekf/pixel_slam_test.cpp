@@ -22,9 +22,10 @@ using test::PointRoom;
 
 constexpr int kLap = 1390;  ///< pictures of one round
 
-/// The room's pixels are as good as their covariance says, which a real front end's are not.
+/// The room's pixels are as good as their covariance says, and of points that stand still.
 PixelSlamOptions with_perfect_pixels(PixelSlamOptions options) {
   options.model_sigma_px = 0.15;
+  options.wander_px = 0.0;
   return options;
 }
 
@@ -251,6 +252,35 @@ TEST(PixelSlam, SaysWhatLeavesAndNeverHoldsMoreThanItMay) {
     EXPECT_GT(drive.count(Outcome::kAdded), 40);
     EXPECT_TRUE(is_covariance(drive.filter.map().state().covariance()));
   }
+}
+
+TEST(PixelSlam, LetsALandmarkWanderAsTheViewOfItTurns) {
+  PointRoom room(4, {});
+  PixelSlamOptions loose = with_perfect_pixels({});
+  loose.wander_px = 0.5;
+  PixelSlam wandering({}, loose, room.camera());
+  PixelSlam still({}, with_perfect_pixels({}), room.camera());
+  std::vector<LandmarkId> missed;
+  for (int i = 0; i < 200; ++i) {
+    const Motion motion = room.move();
+    for (PixelSlam* filter : {&wandering, &still}) filter->predict(motion);
+    const auto seen = room.look_for(still.expect(), missed);
+    static_cast<void>(wandering.expect());
+    const auto fresh = room.look_for_new(3);
+    for (PixelSlam* filter : {&wandering, &still}) {
+      filter->correct(seen);
+      filter->correct(fresh);
+    }
+  }
+  int compared = 0;
+  for (const auto& feature : still.map().features()) {
+    const auto other = wandering.map().find(feature.id);
+    if (!other || feature.is_point() != wandering.map().feature(*other).is_point()) continue;
+    ++compared;
+    EXPECT_GT(wandering.map().state().landmark_covariance(wandering.map().feature(*other).element).trace(),
+              still.map().state().landmark_covariance(feature.element).trace());
+  }
+  EXPECT_GT(compared, 5);
 }
 
 TEST(PixelSlam, RefusesWhatItCannotUseAndSaysWhy) {

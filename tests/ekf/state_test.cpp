@@ -268,6 +268,16 @@ TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
                             P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
 }
 
+TEST(State, LoosensALandmarkByItself) {
+  RandomStream random(6, StreamPurpose::kWorld);
+  const auto made = small_map(random, 5);
+  Eigen::MatrixXd expected = made->covariance();
+  const Eigen::Matrix3d more = test::random_covariance<3>(random, 0.1);
+  made->loosen(2, more);
+  expected.block<2, 2>(7, 7) += more.topLeftCorner<2, 2>();
+  EXPECT_TRUE(matrix_near(made->covariance(), expected, 1e-15));
+}
+
 TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
   RandomStream random(4, StreamPurpose::kWorld);
   const auto made = small_map(random, 5);

@@ -57,7 +57,8 @@ std::optional<Eigen::Vector2d> follow(const ImageView& from, const Eigen::Vector
   constexpr double kPrediction_px = 3.0;
   const auto patch = cut_patch(from, static_cast<int>(std::lround(place.x())),
                                static_cast<int>(std::lround(place.y())), kPatch_px);
-  Search search;
+  // Its camera is noisier and shakes more than what SearchOptions takes for granted.
+  Search search({.accept_ratio = 4.0});
   const auto match = patch ? search.find(to, *patch, predicted, isotropic(kPrediction_px)) : std::nullopt;
   if (!match || !match->accepted) return std::nullopt;
   return Eigen::Vector2d(match->u, match->v);

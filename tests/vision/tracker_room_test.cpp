@@ -119,7 +119,9 @@ void expect_right_places(const sim::FilmOptions& film) {
                 static_cast<int>(seed), errors.found, errors.missed,
                 Errors::quantile(errors.distances_px, 0.5), Errors::quantile(errors.distances_px, 0.8),
                 Errors::quantile(errors.distances_px, 0.95));
-    EXPECT_GT(errors.found, 3 * errors.missed);
+    // Nobody drops corners at edges in depth here, which are refused as soon as the view turns.
+    EXPECT_GT(2 * errors.found, errors.missed);
+    EXPECT_LT(Errors::quantile(errors.distances_px, 0.95), 0.6);
     EXPECT_LT(Errors::quantile(errors.distances_px, 0.5), 0.12);
     EXPECT_LT(Errors::quantile(errors.distances_px, 2.0 / 3.0), 0.2);
     EXPECT_LT(Errors::quantile(errors.nis, 0.5), 1.4) << "the median of chi-square";

@@ -18,9 +18,9 @@ class CameraFrontEnd {
   /// Has it the size of the camera's pictures?
   [[nodiscard]] bool fits(const ImageView& image) const;
 
-  /// A picture that was taken at the pose that the filter has reached, in two rounds: landmarks first, then
-  /// candidates and new corners at the pose that these corrected. What both rounds did, valid until the next
-  /// call. The picture must fit. Allocates nothing in a steady state.
+  /// A picture that was taken at the pose that the filter has reached: landmarks first, then candidates and
+  /// new corners at the pose that these corrected. What both did, valid until the next call. The picture must
+  /// fit. Allocates nothing in a steady state.
   const Correction& see(const ImageView& image);
 
   /// What became of everything that was looked for in the last picture.
