@@ -18,6 +18,7 @@ struct Request {
   std::string observe;
   std::string associate;
   std::string particles;
+  std::string map;
   bool smooth = false;
   TimeSpan span;
   SettingsFlags flags;
@@ -32,6 +33,7 @@ struct Request {
     set("observe", observe);
     set("associate", associate);
     set("fastslam.particles", particles);
+    set("map.file", map);
     set("smooth.run", smooth ? "true" : "");
     return user;
   }
@@ -82,6 +84,8 @@ void add_run(CLI::App& app, Work& work) {
                    "known: by identity; without one nearest or jcbb (ekf) or ml (fastslam); default what the "
                    "log allows")
       ->type_name("HOW");
+  command->add_option("--map", request->map, "go on from a saved map (map.waymark), at the pose in it")
+      ->type_name("FILE");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_flag("--smooth", request->smooth,
                     "also estimate path, map and calibration from the whole log when it has ended");
@@ -94,7 +98,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run LOG -o out\n"
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
       "  waymark run sim:room --observe pixel -o out\n"
-      "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
+      "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n"
+      "  waymark run LOG --from 600 --map out/map.waymark -o out2\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
       "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });

@@ -317,5 +317,65 @@ TEST(EkfSlam, KnowsRepeatedSightingsWithALastingErrorForWhatTheyAre) {
   EXPECT_NEAR(nis, 1.0, 0.33) << "beyond the 99.9 % band of a mean of 200 chi-square variables";
 }
 
+TEST(EkfSlam, GoesOnFromASavedMapAsIfItHadNeverStopped) {
+  CircleWorld world(11);
+  EkfSlam filter = make(world);
+  drive(filter, world, 60);
+  const MapState saved = filter.save();
+  EkfSlam again({.capacity = 20, .loaded = 8}, {}, world.mount());
+  again.load(saved);
+  EXPECT_EQ(again.save().landmarks, saved.landmarks);
+  EXPECT_EQ(again.save().covariance, saved.covariance);
+  EXPECT_EQ(again.save().observations, saved.observations);
+  for (int i = 0; i < 40; ++i) {
+    const Motion motion = world.move();
+    const auto scan = world.look();
+    for (EkfSlam* each : {&filter, &again}) {
+      each->predict(motion);
+      each->correct(scan);
+    }
+  }
+  EXPECT_EQ(again.pose().T_world_robot, filter.pose().T_world_robot);
+  EXPECT_EQ(again.save().covariance, filter.save().covariance);
+}
+
+TEST(EkfSlam, ALoadedMapIsTheFirstRegionHoweverSmallRegionsAre) {
+  MapState map;
+  constexpr int kCount = 300;
+  for (int i = 0; i < kCount; ++i) map.ids.push_back({LandmarkId::Family::kMarker, i});
+  map.observations.assign(kCount, 2);
+  map.landmarks = Eigen::VectorXd::LinSpaced(2 * kCount, -30.0, 30.0);
+  map.covariance = 0.01 * Eigen::MatrixXd::Identity(3 + 2 * kCount, 3 + 2 * kCount);
+  map.covariance.array() += 0.002;
+  EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .region = 48, .loaded = kCount}, {}, {});
+  filter.load(map);
+  EXPECT_EQ(filter.save().covariance, map.covariance);
+  const Observation unknown{LandmarkId{LandmarkId::Family::kMarker, 999}, RangeBearing{2.0, 0.1},
+                            Eigen::Matrix2d(0.01 * Eigen::Matrix2d::Identity())};
+  EXPECT_EQ(filter.correct({&unknown, 1}).count(Outcome::kAdded), 1);
+  EXPECT_GE(filter.state().closed_regions(), 1);
+  const Eigen::MatrixXd known = filter.save().covariance.topLeftCorner(3 + 2 * kCount, 3 + 2 * kCount);
+  EXPECT_LT((known - map.covariance).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
+  CircleWorld world(12);
+  EkfSlam mapping = make(world);
+  drive(mapping, world, 60);
+  const MapState saved = mapping.save();
+  EkfSlam filter({.consistency = ekf::Consistency::kStandard, .capacity = 8, .loaded = 8}, {}, world.mount());
+  filter.load(saved);
+  filter.hold_landmarks();
+  drive(filter, world, 100);
+  Observation unknown = world.sight(0);
+  unknown.id->number = 99;
+  EXPECT_EQ(filter.correct({&unknown, 1}).count(Outcome::kNotInMap), 1);
+  const MapState after = filter.save();
+  EXPECT_EQ(after.landmarks, saved.landmarks);
+  EXPECT_EQ(after.covariance.bottomRightCorner(16, 16), saved.covariance.bottomRightCorner(16, 16));
+  EXPECT_TRUE(is_covariance(after.covariance));
+  EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 0.3);
+}
+
 }  // namespace
 }  // namespace waymark

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
@@ -321,6 +322,52 @@ TEST(State, TwoThreadsGiveTheSameBits) {
     results.push_back(state.covariance());
   }
   EXPECT_TRUE(results[0] == results[1]);
+}
+
+/// P after an update with the gain K (Joseph form), of which the rows of the landmarks are zero: Schmidt's
+/// filter as a textbook has it.
+TEST(State, HoldingLandmarksIsTheConsiderFilter) {
+  RandomStream random(3, StreamPurpose::kWorld);
+  constexpr int kLandmarks = 6;
+  constexpr int kSize = 3 + 2 * kLandmarks;
+  Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(kSize, kSize, [&] { return 0.1 * random.normal(); });
+  const Eigen::MatrixXd P_start = A * A.transpose();
+  Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(kSize, [&] { return random.normal(); });
+  State state(2, kLandmarks, Consistency::kStandard, 1, 2);
+  state.load(x, P_start);
+  state.hold_landmarks();
+  for (int step = 0; step < 20; ++step) {
+    state.predict(random_motion(random));
+    const Eigen::MatrixXd P = state.covariance();
+    x = state.mean();
+    Sighting sighting = random_sighting(random, step % kLandmarks, 2);
+    sighting.rows = 2;
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, kSize);
+    H.leftCols<3>() = sighting.H_pose;
+    H.middleCols<2>(3 + 2 * sighting.landmark) = sighting.H_landmark.leftCols<2>();
+    Eigen::MatrixXd K = P * H.transpose() * (H * P * H.transpose() + sighting.R).inverse();
+    K.bottomRows(kSize - 3).setZero();
+    const Eigen::MatrixXd I_KH = Eigen::MatrixXd::Identity(kSize, kSize) - K * H;
+    ASSERT_TRUE(state.update({&sighting, 1}));
+    Eigen::VectorXd expected = x + K * sighting.nu;
+    expected[2] = wrap_angle(expected[2]);
+    EXPECT_TRUE(matrix_near(state.mean(), expected, 1e-12));
+    const Eigen::MatrixXd P_after = I_KH * P * I_KH.transpose() + K * sighting.R * K.transpose();
+    EXPECT_TRUE(matrix_near(state.covariance(), P_after, 1e-12));
+  }
+  EXPECT_EQ(state.covariance().bottomRightCorner(kSize - 3, kSize - 3),
+            P_start.bottomRightCorner(kSize - 3, kSize - 3).selfadjointView<Eigen::Upper>().toDenseMatrix());
+}
+
+TEST(State, ARobotThatIsPutSomewhereElseIsIndependentOfTheMap) {
+  State state(2, 1, Consistency::kStandard);
+  state.load(Eigen::VectorXd::LinSpaced(5, 0.0, 1.0),
+             Eigen::MatrixXd::Identity(5, 5) + Eigen::MatrixXd::Constant(5, 5, 0.5));
+  state.place_robot({{4.0, 5.0, 0.5}, 2.0 * Eigen::Matrix3d::Identity()});
+  Eigen::MatrixXd expected = 2.0 * Eigen::MatrixXd::Identity(5, 5);
+  expected.bottomRightCorner<2, 2>() << 1.5, 0.5, 0.5, 1.5;
+  EXPECT_EQ(state.covariance(), expected);
+  EXPECT_EQ(state.pose().T_world_robot, (Pose2{4.0, 5.0, 0.5}));
 }
 
 }  // namespace

@@ -86,6 +86,21 @@ does eval whole/trajectory.tum --truth whole/trajectory.tum
 does run sim:square --seed 3 -o memory
 cmp -s whole/trajectory.tum memory/trajectory.tum || fail 'a log from memory gives another path than from disk'
 
+# Saved maps: the same bytes when nothing happened between, and what cannot be gone on from.
+does run log -o first --to 20
+does run log -o second --from 1e9 --map first/map.waymark
+cmp -s <(sed 1,3d first/map.waymark) <(sed 1,3d second/map.waymark) || fail 'a map that was only read and written differs'
+does run log -o second --from 20 --map first/map.waymark
+refuses 2 'map.file: a saved map needs filter=ekf' run log -o o --map first/map.waymark --filter fastslam
+refuses 2 'ekf.capacity=3' run log -o o --map first/map.waymark --set ekf.capacity=3
+refuses 2 'nowhere.waymark' run log -o o --map nowhere.waymark
+sed 's/^waymark_map: 1/waymark_map: 9/' first/map.waymark >broken.waymark
+refuses 2 "broken.waymark:1: version '9'" run log -o o --map broken.waymark
+awk '/^covariance/ { print; getline; $1 = "-1" } { print }' first/map.waymark >broken.waymark
+refuses 2 'broken.waymark: the covariance is not positive' run log -o o --map broken.waymark
+head -c "$(($(wc -c <first/map.waymark) / 2))" first/map.waymark >broken.waymark
+refuses 2 'broken.waymark' run log -o o --map broken.waymark
+
 # Pictures: from disk as from memory, and what can be wrong with them.
 short=(--set sim.side_m=2 --set sim.speed_mps=1 --set sim.corner_radius_m=0.3)
 does sim room -o room "${short[@]}"
@@ -99,6 +114,7 @@ grep -q 'landmark_dimension: 3' seen/map.waymark || fail 'a map from pictures ha
 grep -q '"FB4 match"' seen/metrics.json || fail 'metrics.json lacks the blocks of the tracker'
 [ "$(wc -c <seen/report.html)" -lt 3000000 ] || fail 'a report with pictures is too large'
 refuses 2 'filter=ekf' run room -o o --filter fastslam
+refuses 2 'its landmarks are of dimension 3' run log -o o --map seen/map.waymark
 refuses 2 'observe' run log -o o --observe pixel
 spoil() { rm -rf spoilt && cp -r room spoilt; }
 spoil && sed -i 's/image_width: 320/image_width: 640/' spoilt/camera.yaml

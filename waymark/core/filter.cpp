@@ -22,6 +22,8 @@ const char* describe(Outcome outcome) {
       return "seen twice in one scan";
     case Outcome::kMapFull:
       return "map full";
+    case Outcome::kNotInMap:
+      return "of a landmark that the held map does not have";
   }
   return "unknown";
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
+#include "waymark/core/result.hpp"
 
 namespace waymark {
 
@@ -21,6 +23,7 @@ enum class Outcome : std::uint8_t {
   kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
   kDuplicate,  ///< a second sighting of one landmark in one scan
   kMapFull,    ///< would have been a new landmark, but there is no room
+  kNotInMap,   ///< of no landmark of a map that is held as it is
 };
 
 [[nodiscard]] const char* describe(Outcome outcome);
@@ -57,6 +60,12 @@ class Filter {
 
   /// Cheap: called after every step.
   [[nodiscard]] virtual PoseEstimate pose() const = 0;
+
+  /// False while a filter that starts at an unknown place has not found it: pose() means nothing.
+  [[nodiscard]] virtual bool knows_pose() const { return true; }
+
+  /// Why it gave up, if it has: what it is given has nothing to do with the map that it started from.
+  [[nodiscard]] virtual std::optional<Error> refusal() const { return std::nullopt; }
 
   /// The map with marginal covariances; allocates. The stamp is the caller's to fill in.
   [[nodiscard]] virtual Snapshot snapshot() const = 0;

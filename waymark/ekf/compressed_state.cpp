@@ -63,6 +63,16 @@ int CompressedState::limit() const {
                     active_.capacity());
 }
 
+void CompressedState::load(const Eigen::Ref<const Eigen::VectorXd>& mean,
+                           const Eigen::Ref<const Eigen::MatrixXd>& P) {
+  assert(slots_.empty());
+  active_.load(mean, P);
+  for (int i = 0; i < active_.landmarks(); ++i) {
+    slots_.push_back(take_slot());
+    enter(slots_.back());
+  }
+}
+
 void CompressedState::predict(const Motion& motion) {
   active_.predict(motion);
   step_began_ = now_;

@@ -51,6 +51,10 @@ class CompressedState {
   [[nodiscard]] Pose2 linearization_pose() const { return active_.linearization_pose(); }
   [[nodiscard]] Eigen::Vector3d linearization_landmark(int index) const;
   void set_pose(const PoseEstimate& pose) { active_.set_pose(pose); }
+  void place_robot(const PoseEstimate& pose) { active_.place_robot(pose); }
+  void hold_landmarks() { active_.hold_landmarks(); }
+  /// All landmarks together are the first region: there must be that many before the onset.
+  void load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P);
   void predict(const Motion& motion);
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const { return active_.expected(terms); }

@@ -64,13 +64,13 @@ void describe(Schema& schema, EkfOptions& options) {
 ekf::Compression compression(const EkfOptions& options) {
   switch (options.compressed) {
     case Compress::kAlways:
-      return {options.region, options.region};
+      return {options.region, std::max(options.region, options.loaded)};
     case Compress::kNever:
       return {options.region, options.capacity};
     case Compress::kAuto:
       break;
   }
-  return {options.region, 6 * options.region};
+  return {options.region, std::max(6 * options.region, options.loaded)};
 }
 
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
@@ -90,6 +90,29 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   refined_.reserve(ekf::CompressedState::kMaxSightings);
   seen_.reserve(ekf::CompressedState::kMaxSightings);
   errors_.start(state_);
+}
+
+void EkfSlam::load(const MapState& map) {
+  Eigen::VectorXd mean(3 + map.landmarks.size());
+  mean << map.T_world_robot.x_m, map.T_world_robot.y_m, map.T_world_robot.theta_rad, map.landmarks;
+  state_.load(mean, map.covariance);
+  for (std::size_t i = 0; i < map.ids.size(); ++i) {
+    const auto landmark = static_cast<int>(i);
+    landmarks_.push_back({.id = map.ids[i],
+                          .observations = map.observations[i],
+                          .place_m = state_.landmark(landmark).head<2>()});
+    index_.assign(map.ids[i], landmark);
+    management_.added();
+    if (!unnamed_) continue;
+    note_sigma(landmark);
+    if (map.ids[i].family == LandmarkId::Family::kNone)
+      unnamed_->next_number = std::max(unnamed_->next_number, map.ids[i].number + 1);
+  }
+}
+
+void EkfSlam::hold_landmarks() {
+  held_ = true;
+  state_.hold_landmarks();
 }
 
 void EkfSlam::predict(const Motion& motion) {
@@ -153,7 +176,7 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
   errors_.sight(state_, innovation.landmark);
   const auto landmark = index_.find(innovation.landmark);
   if (!landmark) {
-    innovation.outcome = Outcome::kAdded;  // if add() finds room
+    innovation.outcome = of_no_landmark();  // added if add() finds room
     return;
   }
   matched_[index] = *landmark;

@@ -46,6 +46,7 @@ struct EkfOptions {
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   UpdateMethod update = UpdateMethod::kFast;
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
+  int loaded = 0;   ///< landmarks that load() will bring: they are the first region of a compressed map
 };
 
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
@@ -76,6 +77,18 @@ class EkfSlam final : public Filter {
  public:
   EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1,
           const SensorErrors& errors = {}, const std::optional<ekf::UnnamedOptions>& unnamed = {});
+
+  /// Starts from a saved map of 2-D landmarks, no more than `options.loaded`, with all its correlations; only
+  /// before anything else. The lasting errors of the sensor begin anew. What a map says is there is taken to
+  /// be there: a landmark without identity is neither tentative nor forgotten.
+  void load(const MapState& map);
+
+  /// From now on the landmarks stay as they are and no others are added: what they are unsure of is
+  /// considered (Schmidt 1966), and only the pose and the sensor's lasting errors are estimated.
+  void hold_landmarks();
+
+  /// Puts the robot somewhere else, as sure of it as the covariance says.
+  void place_robot(const PoseEstimate& pose) { state_.place_robot(pose); }
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -140,6 +153,7 @@ class EkfSlam final : public Filter {
     Eigen::Vector3d p_world;
   };
 
+  [[nodiscard]] Outcome of_no_landmark() const { return held_ ? Outcome::kNotInMap : Outcome::kAdded; }
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
@@ -199,6 +213,7 @@ class EkfSlam final : public Filter {
   ekf::MapManagement management_;
   std::vector<Landmark> landmarks_;  // by index in the state
   std::optional<Unnamed> unnamed_;
+  bool held_ = false;  // nothing is added
   double way_m_ = 0.0;
   int gated_in_a_row_ = 0;
   int slips_ = 0;

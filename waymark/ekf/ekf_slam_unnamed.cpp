@@ -199,7 +199,7 @@ void EkfSlam::settle_leftovers(std::span<const Observation> observations) {
   index_places();
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (unnamed_->open[i] != 0)
-      innovations_[i].outcome = is_near_a_landmark(observations[i]) ? Outcome::kAmbiguous : Outcome::kAdded;
+      innovations_[i].outcome = is_near_a_landmark(observations[i]) ? Outcome::kAmbiguous : of_no_landmark();
 }
 
 bool EkfSlam::is_near_a_landmark(const Observation& observation) const {

@@ -99,6 +99,10 @@ Eigen::Vector3d State::linearization_landmark(int index) const {
 
 void State::set_pose(const PoseEstimate& pose) {
   assert(landmarks_ == 0);
+  write_pose(pose);
+}
+
+void State::write_pose(const PoseEstimate& pose) {
   x_[0] = pose.T_world_robot.x_m;
   x_[1] = pose.T_world_robot.y_m;
   x_[2] = pose.T_world_robot.theta_rad;
@@ -106,6 +110,31 @@ void State::set_pose(const PoseEstimate& pose) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j)
       P_[i * ld_ + j] = pose.covariance(static_cast<int>(i), static_cast<int>(j));
+}
+
+void State::load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P) {
+  assert(landmarks_ == 0 && mean.size() >= 3 && P.rows() == mean.size() && P.cols() == mean.size());
+  landmarks_ = static_cast<int>(mean.size() - 3) / dimension_;
+  assert(landmarks_ <= capacity_);
+  for (std::size_t i = 3; i < head_; ++i) std::fill(&P_[i * ld_ + head_], &P_[i * ld_ + size()], 0.0);
+  for (int i = 0; i < mean.size(); ++i) {
+    x_[place(i)] = mean[i];
+    if (i >= 3) first_[place(i)] = mean[i];
+    for (int j = i; j < mean.size(); ++j) P_[place(i) * ld_ + place(j)] = P(i, j);
+  }
+  std::fill_n(relative_.begin(), landmarks_, char{0});
+  linearization_pose_ = {mean[0], mean[1], mean[2]};
+}
+
+void State::hold_landmarks() {
+  assert(consistency_ != Consistency::kInvariant && !textbook_);
+  held_ = true;
+}
+
+void State::place_robot(const PoseEstimate& pose) {
+  join_robot_rows();
+  for (std::size_t i = 0; i < 3; ++i) std::fill(&P_[i * ld_ + 3], &P_[i * ld_ + size()], 0.0);
+  write_pose(pose);
 }
 
 void State::predict(const Motion& motion) {
@@ -195,7 +224,8 @@ bool State::propose(std::span<const Sighting> sightings) {
   if (!factorize(static_cast<int>(rows))) return false;
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
   std::fill_n(dx_.data(), size(), 0.0);
-  kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), size());
+  kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), updated_rows());
+  std::fill(&dx_[updated_rows()], &dx_[size()], 0.0);  // the kernel goes on to the end of its vector
   return true;
 }
 
@@ -388,6 +418,8 @@ void State::prepare_shear() {
 }
 
 void State::correct_covariance(bool shear) {
+  if (held_)
+    return kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows_, {0, updated_rows()});
   if (shear) prepare_shear();
   const int bands = size() < kParallelSize ? 1 : team_.size();
   team_.run(bands, [&](int band) {

@@ -93,6 +93,17 @@ class State {
   /// Replaces the belief in the pose; only before anything was predicted or added.
   void set_pose(const PoseEstimate& pose);
 
+  /// Starts from a mean and covariance of (x, y, theta, landmarks) as mean() and covariance() give them; only
+  /// before anything was added. The lasting errors stay what they are, independent of all that.
+  void load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P);
+
+  /// From now on no update touches the landmarks, neither their mean nor their covariance: what they are
+  /// unsure of is considered (Schmidt 1966), an update costs n D (head + D) flop. Not with kInvariant.
+  void hold_landmarks();
+
+  /// Puts the robot somewhere else: a belief in its pose that is independent of everything.
+  void place_robot(const PoseEstimate& pose);
+
   /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed.
   void predict(const Motion& motion);
 
@@ -208,6 +219,7 @@ class State {
   }
   [[nodiscard]] std::size_t place(int i) const;
 
+  void write_pose(const PoseEstimate& pose);
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);
   [[nodiscard]] bool factorize(int rows);
@@ -218,12 +230,15 @@ class State {
   [[nodiscard]] Eigen::Matrix2d increment_jacobian() const;
   void prepare_shear();
   void correct_covariance(bool shear);
+  /// Rows of the mean and the covariance that an update changes.
+  [[nodiscard]] std::size_t updated_rows() const { return held_ ? head_ : size(); }
 
   int dimension_;
   int capacity_;
   Consistency consistency_;
   std::size_t head_;
   int landmarks_ = 0;
+  bool held_ = false;
   std::size_t ld_;
 
   Buffer x_;                    // n: the mean

@@ -57,6 +57,7 @@ Schema describe(Config& config) {
   describe(schema, config.odometry);
   describe(schema, config.sensor);
   describe(schema, config.camera);
+  describe(schema, config.map);
   describe(schema, config.pipeline);
   describe(schema, config.gate);
   describe(schema, config.association);

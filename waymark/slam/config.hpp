@@ -18,6 +18,7 @@
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/odometry.hpp"
 #include "waymark/sim/options.hpp"
+#include "waymark/slam/map_options.hpp"
 #include "waymark/slam/pipeline.hpp"
 #include "waymark/slam/smooth_options.hpp"
 #include "waymark/vision/search.hpp"
@@ -46,6 +47,7 @@ struct Config {
   LandmarkSensor sensor;
   CameraOptions camera;
   bool camera_known = true;  ///< no key: false where neither log nor user says what the camera is like
+  MapOptions map;
   PipelineOptions pipeline;
   GateOptions gate;
   AssociationOptions association;

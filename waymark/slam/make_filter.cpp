@@ -8,6 +8,22 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
   return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
 }
 
+/// EKF-SLAM over range and bearing, on from a saved map where there is one.
+Result<std::unique_ptr<Filter>> make_range_bearing_ekf(const Config& config) {
+  std::optional<MapState> map;
+  if (!config.map.file.empty()) {
+    auto read = read_start_map(config.map, config.ekf.capacity);
+    if (!read) return read.error();
+    map = *std::move(read);
+  }
+  EkfOptions options = config.ekf;
+  if (map) options.loaded = static_cast<int>(map->ids.size());
+  auto filter = std::make_unique<EkfSlam>(options, config.gate, config.sensor.T_robot_sensor(),
+                                          config.threads, config.sensor.errors, unnamed(config));
+  if (map) filter->load(*map);
+  return std::unique_ptr<Filter>(std::move(filter));
+}
+
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
@@ -18,9 +34,7 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
-      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate,
-                                                               config.sensor.T_robot_sensor(), config.threads,
-                                                               config.sensor.errors, unnamed(config)));
+      return make_range_bearing_ekf(config);
     case Observe::kPixel:
       return std::unique_ptr<Filter>(
           std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
@@ -49,6 +63,11 @@ Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
 }  // namespace
 
 Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
+  const bool takes_map = config.filter == FilterKind::kEkf && config.observe == Observe::kRangeBearing;
+  if (!config.map.file.empty() && !takes_map)
+    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing"};
+  if (!config.map.file.empty() && config.smooth.run)
+    return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
   return config.filter == FilterKind::kEkf ? make_ekf(config) : make_fastslam(config);
 }
 

@@ -8,7 +8,7 @@
 
 namespace waymark {
 
-/// The filter that the config asks for, at the origin and sure of it.
+/// The filter that the config asks for, at the origin and sure of it, or on from a saved map.
 [[nodiscard]] Result<std::unique_ptr<Filter>> make_filter(const Config& config);
 
 /// What looks into pictures for a filter over pixels, which must outlive it; null for any other filter.

@@ -28,8 +28,9 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
 
 std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInnovation>& innovations) {
   std::vector<std::string> lines;
-  for (const Outcome outcome : {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable,
-                                Outcome::kAmbiguous, Outcome::kDuplicate, Outcome::kMapFull}) {
+  for (const Outcome outcome :
+       {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous, Outcome::kDuplicate,
+        Outcome::kMapFull, Outcome::kNotInMap}) {
     const auto count = std::ranges::count_if(
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "waymark/core/config.hpp"
+#include "waymark/core/map_state.hpp"
+#include "waymark/core/result.hpp"
+
+namespace waymark {
+
+/// The saved map that a run starts from.
+struct MapOptions {
+  std::string file;       ///< a map.waymark; empty: an empty map
+};
+
+void describe(Schema& schema, MapOptions& options);
+
+/// Reads the map, for a filter of landmarks in the plane with room for `capacity` of them.
+[[nodiscard]] Result<MapState> read_start_map(const MapOptions& options, int capacity);
+
+}  // namespace waymark
