@@ -19,6 +19,7 @@ struct Request {
   std::string associate;
   std::string particles;
   std::string map;
+  bool localize = false;
   bool smooth = false;
   TimeSpan span;
   SettingsFlags flags;
@@ -34,6 +35,7 @@ struct Request {
     set("associate", associate);
     set("fastslam.particles", particles);
     set("map.file", map);
+    set("map.localize", localize ? "true" : "");
     set("smooth.run", smooth ? "true" : "");
     return user;
   }
@@ -86,6 +88,8 @@ void add_run(CLI::App& app, Work& work) {
       ->type_name("HOW");
   command->add_option("--map", request->map, "go on from a saved map (map.waymark), at the pose in it")
       ->type_name("FILE");
+  command->add_flag("--localize", request->localize,
+                    "hold the map of --map as it is and find the pose alone, from anywhere in it");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_flag("--smooth", request->smooth,
                     "also estimate path, map and calibration from the whole log when it has ended");
@@ -99,7 +103,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
       "  waymark run sim:room --observe pixel -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n"
-      "  waymark run LOG --from 600 --map out/map.waymark -o out2\n\n"
+      "  waymark run LOG --from 600 --map out/map.waymark -o out2\n"
+      "  waymark run LOG2 --map out/map.waymark --localize -o out3\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
       "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });

@@ -101,6 +101,16 @@ refuses 2 'broken.waymark: the covariance is not positive' run log -o o --map br
 head -c "$(($(wc -c <first/map.waymark) / 2))" first/map.waymark >broken.waymark
 refuses 2 'broken.waymark' run log -o o --map broken.waymark
 
+# A map, held: the robot is found, the landmarks stay, and another place is told.
+does run log -o found --from 5 --map whole/map.waymark --localize
+places() { awk '/^(marker|barcode)/ { print $2, $4, $5 }' "$1"; }
+cmp -s <(places whole/map.waymark) <(places found/map.waymark) || fail 'localising moves landmarks'
+refuses 2 'map.localize: needs a saved map' run log -o o --localize
+awk '/^(marker|barcode)/ { $4 = -$4 } { print }' whole/map.waymark >mirrored.waymark
+refuses 2 'it is of another place' run log -o o --map mirrored.waymark --localize
+sed -E 's/^(marker|barcode) /&9/' whole/map.waymark >renamed.waymark
+refuses 2 'the map has 0' run log -o o --map renamed.waymark --localize
+
 # Pictures: from disk as from memory, and what can be wrong with them.
 short=(--set sim.side_m=2 --set sim.speed_mps=1 --set sim.corner_radius_m=0.3)
 does sim room -o room "${short[@]}"

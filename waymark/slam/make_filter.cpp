@@ -1,5 +1,7 @@
 #include "waymark/slam/make_filter.hpp"
 
+#include "waymark/ekf/localizer.hpp"
+
 namespace waymark {
 namespace {
 
@@ -16,6 +18,10 @@ Result<std::unique_ptr<Filter>> make_range_bearing_ekf(const Config& config) {
     if (!read) return read.error();
     map = *std::move(read);
   }
+  if (config.map.localize)
+    return std::unique_ptr<Filter>(std::make_unique<Localizer>(*std::move(map), config.ekf, config.gate,
+                                                               config.sensor.T_robot_sensor(), config.threads,
+                                                               config.sensor.errors, unnamed(config)));
   EkfOptions options = config.ekf;
   if (map) options.loaded = static_cast<int>(map->ids.size());
   auto filter = std::make_unique<EkfSlam>(options, config.gate, config.sensor.T_robot_sensor(),
@@ -66,6 +72,8 @@ Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
   const bool takes_map = config.filter == FilterKind::kEkf && config.observe == Observe::kRangeBearing;
   if (!config.map.file.empty() && !takes_map)
     return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing"};
+  if (config.map.localize && config.map.file.empty())
+    return Error{"map.localize: needs a saved map: --map FILE (config key map.file)"};
   if (!config.map.file.empty() && config.smooth.run)
     return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
   return config.filter == FilterKind::kEkf ? make_ekf(config) : make_fastslam(config);

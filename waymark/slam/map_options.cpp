@@ -8,6 +8,8 @@ namespace waymark {
 
 void describe(Schema& schema, MapOptions& options) {
   schema.text("map.file", options.file, "saved map (map.waymark) to start from; empty: an empty map");
+  schema.boolean("map.localize", options.localize,
+                 "hold the map of map.file as it is and find the pose alone, from anywhere in it");
 }
 
 Result<MapState> read_start_map(const MapOptions& options, int capacity) {

@@ -11,6 +11,7 @@ namespace waymark {
 /// The saved map that a run starts from.
 struct MapOptions {
   std::string file;       ///< a map.waymark; empty: an empty map
+  bool localize = false;  ///< the map is held as it is, the robot may be anywhere in it
 };
 
 void describe(Schema& schema, MapOptions& options);

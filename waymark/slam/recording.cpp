@@ -110,6 +110,7 @@ Result<void> route(Event event, const Config& config, Recording& recording, Pipe
   }
   if (auto known = check_sensor_of(event, config); !known) return known;
   pipeline.push(std::move(event));
+  if (auto refusal = recording.filter->refusal()) return *std::move(refusal);
   return {};
 }
 
@@ -123,6 +124,13 @@ std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe
     return std::nullopt;
   return Error{
       "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
+}
+
+/// Where the robot never found itself there is no result.
+std::optional<Error> find_unknown_pose(const Filter& filter) {
+  if (filter.refusal() || filter.knows_pose()) return filter.refusal();
+  return Error{
+      "map: the robot was not found in it up to the end: too few of its landmarks were seen; three will do"};
 }
 
 void finish_pictures(Recording& recording, const Config& config, const CameraFrontEnd& front_end) {
@@ -154,6 +162,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   Pipeline pipeline(
       *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
       [&](const Step& step) {
+        if (!recording.filter->knows_pose()) return;
         keep(recording, step, front_end.get());
         if (config.smooth.run) keep_for_smoothing(recording, step);
       },
@@ -163,6 +172,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
     return route(std::move(event), config, recording, pipeline);
   });
   pipeline.finish();
+  if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
   recording.blocks = blocks_of(*recording.filter, front_end.get());

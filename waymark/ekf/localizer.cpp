@@ -1,0 +1,190 @@
+#include "waymark/ekf/localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "waymark/core/gaussian.hpp"
+#include "waymark/models/observation_models.hpp"
+
+namespace waymark {
+namespace {
+
+constexpr int kMostSightings = 20;
+constexpr int kMostDoubt = 20;
+// Landmarks that must agree. Without identities two of them say nothing and a third may do so by chance.
+constexpr int kLeastNamed = 3;
+constexpr int kLeastUnnamed = 5;
+constexpr int kLeastAhead = 2;
+constexpr std::size_t kMostRemembered = 32;
+// Of the belief that the first update starts from: as good as nothing is known.
+const Eigen::Vector3d kAnywhere(10.0, 10.0, 1.0);
+
+EkfOptions for_held(EkfOptions options, const MapState& map) {
+  options.consistency = ekf::Consistency::kStandard;
+  options.capacity = options.loaded = std::max<int>(1, static_cast<int>(map.ids.size()));
+  options.compressed = Compress::kNever;
+  return options;
+}
+
+bool can_be_placed(const Observation& observation) {
+  const auto* z = std::get_if<RangeBearing>(&observation.value);
+  return z != nullptr && observation.covariance && observation.covariance->allFinite() &&
+         std::isfinite(z->range_m) && std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
+}
+
+/// Of the errors that outlive a sighting: two that are weeks apart have none in common.
+Eigen::Matrix2d lasting_covariance(const SensorErrors& errors, double range_m) {
+  const double range_ratio = std::hypot(errors.shared_range_sigma_ratio, errors.lasting_range_sigma_ratio);
+  const double bearing_deg = std::hypot(errors.shared_bearing_sigma_deg, errors.lasting_bearing_sigma_deg);
+  const Eigen::Vector2d sigma(range_ratio * range_m, to_radians(bearing_deg));
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+/// To the robot's frame after a motion, to first order.
+void move(SeenLandmark& seen, const Motion& motion) {
+  const Eigen::Matrix2d R = motion.increment.rotation().transpose();
+  Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
+  seen.p_robot = motion.increment.inverse() * seen.p_robot;
+  J.leftCols<2>() = -R;
+  J.col(2) = -perpendicular(seen.p_robot);
+  seen.covariance = (R * seen.covariance * R.transpose() + J * motion.covariance * J.transpose()).eval();
+}
+
+/// What a sensor would have measured from here.
+Observation observe(const SeenLandmark& seen, LandmarkId id, const Pose2& T_robot_sensor) {
+  const auto h = RangeBearingModel::linearize({}, T_robot_sensor, seen.p_robot);
+  return {id, RangeBearing{h.predicted[0], h.predicted[1]},
+          Eigen::Matrix2d(h.H_landmark * seen.covariance * h.H_landmark.transpose())};
+}
+
+}  // namespace
+
+Localizer::Localizer(MapState map, EkfOptions options, const GateOptions& gate, const Pose2& T_robot_sensor,
+                     int threads, const SensorErrors& errors,
+                     const std::optional<ekf::UnnamedOptions>& unnamed)
+    : map_(std::move(map)),
+      T_robot_sensor_(T_robot_sensor),
+      errors_(errors),
+      unnamed_(unnamed.has_value()),
+      ekf_(for_held(options, map_), gate, T_robot_sensor, threads, errors, unnamed) {
+  ekf_.load(map_);
+  ekf_.hold_landmarks();
+}
+
+void Localizer::predict(const Motion& motion) {
+  if (located_) return ekf_.predict(motion);
+  if (!is_finite(motion)) return;
+  for (SeenLandmark& seen : memory_) move(seen, motion);
+}
+
+const Correction& Localizer::correct(std::span<const Observation> observations) {
+  if (!located_) return look_around(observations);
+  const Correction& correction = ekf_.correct(observations);
+  judge(correction);
+  return correction;
+}
+
+/// Sightings that contradict the map far more often than others agree mean that the robot is elsewhere.
+void Localizer::judge(const Correction& correction) {
+  doubt_ = std::max(0, doubt_ + correction.count(Outcome::kGated) - correction.count(Outcome::kMatched));
+  if (doubt_ < kMostDoubt) return;
+  ++losses_;
+  located_ = false;
+  doubt_ = sightings_ = 0;
+  memory_.clear();
+}
+
+const Correction& Localizer::look_around(std::span<const Observation> observations) {
+  innovations_.assign(observations.size(), {});
+  searching_ = {innovations_, {}};
+  if (refusal_) return searching_;
+  for (const Observation& observation : observations)
+    if (can_be_placed(observation) && (observation.id || unnamed_)) remember(observation);
+  if (memory_.size() < 2) return searching_;
+  const PoseCandidates found = find_pose(memory_, map_);
+  if (is_enough(found)) return settle(found.best);
+  if (sightings_ >= kMostSightings && std::ssize(memory_) >= kLeastNamed) refusal_ = Error{reason(found)};
+  return searching_;
+}
+
+/// The latest sighting of a landmark stands for all of them.
+void Localizer::remember(const Observation& observation) {
+  const auto& z = std::get<RangeBearing>(observation.value);
+  const auto place = RangeBearingModel::locate({}, T_robot_sensor_, z);
+  const Eigen::Matrix2d R = *observation.covariance + lasting_covariance(errors_, z.range_m);
+  const SeenLandmark seen{observation.id, place.p_world,
+                          place.G_measurement * R * place.G_measurement.transpose()};
+  ++sightings_;
+  const std::size_t at = place_of(seen);
+  if (at < memory_.size())
+    memory_[at] = seen;
+  else if (memory_.size() < kMostRemembered)
+    memory_.push_back(seen);
+}
+
+/// Where the same landmark is remembered, if it is.
+std::size_t Localizer::place_of(const SeenLandmark& seen) const {
+  const auto found = std::ranges::find_if(memory_, [&](const SeenLandmark& before) {
+    if (seen.id || before.id) return seen.id == before.id;
+    const auto d2 =
+        mahalanobis_squared<2>(seen.p_robot - before.p_robot, seen.covariance + before.covariance);
+    return d2 && *d2 < 13.82;  // 99.9 % of chi-square with two degrees of freedom
+  });
+  return static_cast<std::size_t>(found - memory_.begin());
+}
+
+/// Landmarks seen that the map may have.
+int Localizer::seen_of_map() const {
+  return static_cast<int>(std::ranges::count_if(memory_, [this](const SeenLandmark& seen) {
+    return !seen.id || std::ranges::find(map_.ids, *seen.id) != map_.ids.end();
+  }));
+}
+
+bool Localizer::is_enough(const PoseCandidates& found) const {
+  const int agreeing = found.best.agreeing;
+  const int candidates = seen_of_map();
+  if (3 * agreeing < 2 * candidates) return false;
+  const bool named =
+      std::ranges::all_of(memory_, [](const SeenLandmark& seen) { return seen.id.has_value(); });
+  if (!named) return agreeing >= kLeastUnnamed && agreeing >= found.rival + kLeastAhead;
+  const bool no_more = sightings_ >= kMostSightings && std::ssize(memory_) == 2;
+  return agreeing >= kLeastNamed || (no_more && agreeing == 2);
+}
+
+std::string Localizer::reason(const PoseCandidates& found) const {
+  const int candidates = seen_of_map();
+  const auto seen = std::ssize(memory_);
+  if (candidates < kLeastNamed)
+    return fmt::format(
+        "map: the robot is not in it: of {} landmarks seen in {} sightings the map has {}; it is of another "
+        "place",
+        seen, sightings_, candidates);
+  if (found.best.agreeing >= kLeastUnnamed && found.best.agreeing < found.rival + kLeastAhead)
+    return fmt::format(
+        "map: the robot may be in several places of it: {} of {} landmarks seen agree on one, {} "
+        "on another",
+        found.best.agreeing, seen, found.rival);
+  return fmt::format(
+      "map: the robot is not in it: of {} landmarks seen in {} sightings no more than {} stand as in the "
+      "map; "
+      "it is of another place",
+      seen, sightings_, found.best.agreeing);
+}
+
+const Correction& Localizer::settle(const PoseCandidate& found) {
+  located_ = true;
+  ekf_.place_robot({found.T_world_robot, kAnywhere.cwiseAbs2().asDiagonal()});
+  std::vector<Observation> agreeing;
+  for (std::size_t k = 0; k < memory_.size(); ++k)
+    if (found.landmarks[k] >= 0)
+      agreeing.push_back(
+          observe(memory_[k], map_.ids[static_cast<std::size_t>(found.landmarks[k])], T_robot_sensor_));
+  memory_.clear();
+  sightings_ = 0;
+  return ekf_.correct(agreeing);
+}
+
+}  // namespace waymark

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "waymark/association/find_pose.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+
+namespace waymark {
+
+/// The pose in a saved map that is held as it is.
+///
+/// It starts anywhere: what is seen is remembered in the robot's frame until enough of it stands as the map
+/// has it (find_pose()). That tells where to linearise; what is known of the pose then comes from an update
+/// with all that is remembered, so that pose and map are correlated as they should be. From there on it is
+/// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966).
+///
+/// A robot whose sightings contradict the map for long is searched for anew. Where twenty sightings give no
+/// pose, the filter gives up and says why.
+class Localizer final : public Filter {
+ public:
+  Localizer(MapState map, EkfOptions options, const GateOptions& gate, const Pose2& T_robot_sensor,
+            int threads = 1, const SensorErrors& errors = {},
+            const std::optional<ekf::UnnamedOptions>& unnamed = {});
+
+  void predict(const Motion& motion) override;
+  const Correction& correct(std::span<const Observation> observations) override;
+  [[nodiscard]] PoseEstimate pose() const override { return ekf_.pose(); }
+  [[nodiscard]] bool knows_pose() const override { return located_; }
+  [[nodiscard]] std::optional<Error> refusal() const override { return refusal_; }
+  [[nodiscard]] Snapshot snapshot() const override { return ekf_.snapshot(); }
+  [[nodiscard]] MapState save() const override { return ekf_.save(); }
+  [[nodiscard]] const FunctionBlocks& blocks() const override { return ekf_.blocks(); }
+
+  /// How often the robot was lost again.
+  [[nodiscard]] int losses() const { return losses_; }
+
+ private:
+  void remember(const Observation& observation);
+  [[nodiscard]] std::size_t place_of(const SeenLandmark& seen) const;
+  [[nodiscard]] bool is_enough(const PoseCandidates& found) const;
+  [[nodiscard]] std::string reason(const PoseCandidates& found) const;
+  [[nodiscard]] int seen_of_map() const;
+  const Correction& look_around(std::span<const Observation> observations);
+  const Correction& settle(const PoseCandidate& found);
+  void judge(const Correction& correction);
+
+  MapState map_;
+  Pose2 T_robot_sensor_;
+  SensorErrors errors_;
+  bool unnamed_;
+  EkfSlam ekf_;
+  bool located_ = false;
+  std::optional<Error> refusal_;
+  std::vector<SeenLandmark> memory_;  // of a robot that is not located
+  int sightings_ = 0;                 // in it
+  int doubt_ = 0;                     // sightings that contradict, less those that agree
+  int losses_ = 0;
+  std::vector<Innovation> innovations_;
+  Correction searching_;
+};
+
+}  // namespace waymark
