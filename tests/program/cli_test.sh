@@ -111,6 +111,22 @@ refuses 2 'it is of another place' run log -o o --map mirrored.waymark --localiz
 sed -E 's/^(marker|barcode) /&9/' whole/map.waymark >renamed.waymark
 refuses 2 'the map has 0' run log -o o --map renamed.waymark --localize
 
+# Saved maps by hand.
+does map show whole/map.waymark
+grep -q 'landmarks of dimension 2' out.txt || fail 'map show does not say what is in the map'
+does map convert whole/map.waymark -o m.json
+does map convert m.json -o m.waymark
+cmp -s whole/map.waymark m.waymark || fail 'a map comes back from JSON differently'
+does map convert m.json -o m.csv
+cmp -s whole/map.csv m.csv || fail 'a map as a table differs from map.csv'
+does map merge whole/map.waymark m.json -o both.waymark
+refuses 2 'the maps contradict each other' map merge whole/map.waymark mirrored.waymark -o o.waymark
+refuses 2 '0 landmarks in common' map merge whole/map.waymark renamed.waymark -o o.waymark
+awk -F, 'NR == 1 { print "id,x_m,y_m,sxx,syy" } NR > 1 { print $1 "," $2 "," $3 ",1e-6,1e-6" }' log/landmarks.csv >survey.csv
+does map fix whole/map.waymark --survey survey.csv -o fixed.waymark
+does run log -o found --from 5 --map fixed.waymark --localize
+refuses 2 'ends with .waymark' map convert m.json -o m.txt
+
 # Pictures: from disk as from memory, and what can be wrong with them.
 short=(--set sim.side_m=2 --set sim.speed_mps=1 --set sim.corner_radius_m=0.3)
 does sim room -o room "${short[@]}"
@@ -306,7 +322,7 @@ else
 fi
 
 # Every level of help shows an example.
-for command in '' run demo sim eval sweep check bench config; do
+for command in '' run demo sim eval sweep check bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

@@ -71,7 +71,7 @@ void append_header(std::string& text, const MapState& map) {
 
 void append_landmarks(std::string& text, const MapState& map) {
   for (std::size_t i = 0; i < map.ids.size(); ++i) {
-    text += kFamilies[static_cast<std::size_t>(map.ids[i].family)];
+    text += family_name(map.ids[i].family);
     append_integer(text += ' ', map.ids[i].number);
     append_integer(text += ' ', map.observations[i]);
     for (int axis = 0; axis < map.landmark_dimension; ++axis)
@@ -180,10 +180,9 @@ class MapReader {
 
   LandmarkId take_id(std::string_view& rest) {
     const std::string_view word = take_word(rest);
-    const auto family = std::ranges::find(kFamilies, word);
-    if (family == kFamilies.end())
-      fail(in_quotes(word) + " is no kind of landmark; expected none, marker, barcode or corner");
-    return {static_cast<LandmarkId::Family>(family - kFamilies.begin()), take_integer(rest)};
+    const auto family = family_named(word);
+    if (!family) fail(in_quotes(word) + " is no kind of landmark; expected none, marker, barcode or corner");
+    return {family.value_or(LandmarkId::Family::kNone), take_integer(rest)};
   }
 
   void read_landmarks(MapState& map, int count) {
@@ -234,6 +233,16 @@ class MapReader {
 };
 
 }  // namespace
+
+std::string_view family_name(LandmarkId::Family family) {
+  return kFamilies[static_cast<std::size_t>(family)];
+}
+
+std::optional<LandmarkId::Family> family_named(std::string_view name) {
+  const auto found = std::ranges::find(kFamilies, name);
+  if (found == kFamilies.end()) return std::nullopt;
+  return static_cast<LandmarkId::Family>(found - kFamilies.begin());
+}
 
 std::string format_map_csv(const Snapshot& snapshot) {
   std::string text(kMapCsvColumns);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,10 @@ namespace waymark {
 /// breaks in `made_by` turned to blanks. Size and time grow with the square of the number of landmarks.
 [[nodiscard]] Result<std::string> format_map(const MapState& map);
 [[nodiscard]] Result<void> write_map(const std::filesystem::path& path, const MapState& map);
+
+/// What a kind of landmark is called in files, and which kind that is.
+[[nodiscard]] std::string_view family_name(LandmarkId::Family family);
+[[nodiscard]] std::optional<LandmarkId::Family> family_named(std::string_view name);
 
 /// Refuses what is no belief: sizes that disagree, numbers that are not finite, one id twice, a covariance
 /// that is not positive semi-definite. Every error names file and line.
