@@ -22,8 +22,10 @@ constexpr std::size_t kMostRemembered = 32;
 // Of the belief that the first update starts from: as good as nothing is known.
 const Eigen::Vector3d kAnywhere(10.0, 10.0, 1.0);
 
+/// First estimates of landmarks that stay are what they are; so no update is taken for news of how the map as
+/// a whole is turned, which the robot's sightings cannot tell.
 EkfOptions for_held(EkfOptions options, const MapState& map) {
-  options.consistency = ekf::Consistency::kStandard;
+  options.consistency = ekf::Consistency::kFej;
   options.capacity = options.loaded = std::max<int>(1, static_cast<int>(map.ids.size()));
   options.compressed = Compress::kNever;
   return options;
