@@ -79,7 +79,7 @@ struct Drive {
   std::vector<Observation> seen;
   std::vector<LandmarkId> missed;
   std::set<LandmarkId> known, gone;
-  std::array<int, 7> outcomes{};
+  std::array<int, static_cast<std::size_t>(Outcome::kNotInMap) + 1> outcomes{};
 };
 
 /// Mean over a lap.
@@ -108,6 +108,36 @@ TEST(PixelSlam, FollowsTheTruthWithinItsOwnUncertainty) {
   EXPECT_GT(nees, 2.0);
   EXPECT_LT(nees, 4.5);
   EXPECT_LT(error_m, 0.04);
+}
+
+/// A patch without pixels says from where a landmark was first seen.
+MapState with_views_from(MapState map, const Pose2& T_world_robot) {
+  for (const LandmarkId id : map.ids) map.patches.push_back({id, T_world_robot, {}});
+  return map;
+}
+
+TEST(PixelSlam, GoesOnFromASavedMap) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Drive drive(seed);
+    drive.run(kLap / 3);
+    const MapState saved = drive.filter.save();
+    ASSERT_GT(saved.ids.size(), 20U);
+    PixelSlam again({}, with_perfect_pixels({}), drive.room.camera());
+    again.load(with_views_from(saved, saved.T_world_robot));
+    const MapState loaded = again.save();
+    EXPECT_EQ(loaded.ids, saved.ids);
+    EXPECT_EQ(loaded.landmarks, saved.landmarks);
+    EXPECT_EQ(loaded.covariance, saved.covariance);
+    // With the landmarks in view alone, and nothing new.
+    for (int i = 0; i < 60; ++i) {
+      again.predict(drive.room.move());
+      const auto seen = drive.room.look_for(again.expect(), drive.missed);
+      EXPECT_GT(again.correct(seen).count(Outcome::kMatched), 0) << "seed " << seed << ", picture " << i;
+    }
+    const PoseEstimate pose = again.pose();
+    EXPECT_LT(*mahalanobis_squared<3>(difference(drive.truth(), pose.T_world_robot), pose.covariance), 20.0);
+    EXPECT_LT((pose.T_world_robot.position() - drive.truth().position()).norm(), 0.15);
+  }
 }
 
 TEST(PixelSlam, LinearisedAtTheLatestEstimateItIsTooSure) {

@@ -37,6 +37,11 @@ MapState random_map(int landmarks, int dimension) {
     map.observations.push_back(7 * i);
   }
   map.landmarks = random_matrix(random, landmarks * dimension, 1);
+  for (int i = 0; dimension == 3 && i < landmarks; i += 2) {
+    LandmarkPatch patch{map.ids[static_cast<std::size_t>(i)], {random.normal(), random.normal(), 0.3}, {}};
+    for (int k = 0; k < 9; ++k) patch.pixels.push_back(static_cast<std::uint8_t>(random.uniform(0.0, 256.0)));
+    map.patches.push_back(std::move(patch));
+  }
   map.covariance = random_covariance(random, 3 + landmarks * dimension);
   return map;
 }
@@ -50,6 +55,12 @@ void expect_same(const MapState& a, const MapState& b) {
   EXPECT_EQ(a.observations, b.observations);
   EXPECT_EQ(a.landmarks, b.landmarks);
   EXPECT_EQ(a.covariance, b.covariance);
+  ASSERT_EQ(a.patches.size(), b.patches.size());
+  for (std::size_t i = 0; i < a.patches.size(); ++i) {
+    EXPECT_EQ(a.patches[i].id, b.patches[i].id);
+    EXPECT_EQ(a.patches[i].T_world_robot, b.patches[i].T_world_robot);
+    EXPECT_EQ(a.patches[i].pixels, b.patches[i].pixels);
+  }
 }
 
 class MapRoundTrip : public testing::TestWithParam<std::pair<int, int>> {};
@@ -130,9 +141,22 @@ INSTANTIATE_TEST_SUITE_P(
                "", "m: the file ends before `made_by:`"}));
 
 TEST(MapFiles, CutAnywhereAMapIsRefused) {
-  const std::string text = format_map(random_map(3, 2)).value();
-  for (std::size_t length = 0; length + 4 < text.size(); ++length)
-    EXPECT_FALSE(parse_map(text.substr(0, length), "m").ok()) << "after " << length << " bytes";
+  for (const int dimension : {2, 3}) {
+    const std::string text = format_map(random_map(3, dimension)).value();
+    for (std::size_t length = 0; length + 4 < text.size(); ++length)
+      EXPECT_FALSE(parse_map(text.substr(0, length), "m").ok()) << "after " << length << " bytes";
+  }
+}
+
+TEST(MapFiles, PatchThatCannotBeOneIsAnErrorThatTellsWhere) {
+  const auto error_of = [](std::string patches) {
+    return parse_map(damaged("5\nend", "5\n" + std::move(patches) + "end"), "m").error().message;
+  };
+  EXPECT_THAT(error_of("patches: 2\nmarker 7 0 0 0 ff\n"), HasSubstr("m:16: 'end' is no kind of landmark"));
+  EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 fg\n"), HasSubstr("m:15: the pixels of a patch"));
+  EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 ffff\n"), HasSubstr("m:15: the pixels of a patch"));
+  EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 f\n"), HasSubstr("m:15: the pixels of a patch"));
+  EXPECT_THAT(error_of("patches: 1\nmarker 8 0 0 0 ff\n"), HasSubstr("m: a patch of landmark 8, which is"));
 }
 
 TEST(MapFiles, IdMayStandOnceUnlessItIsNobodys) {

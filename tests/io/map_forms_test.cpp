@@ -21,6 +21,7 @@ MapState some_map(int dimension) {
   map.T_world_robot = {0.1, 1.0 / 3.0, -2.0};
   map.ids = {{LandmarkId::Family::kMarker, 4}, {LandmarkId::Family::kBarcode, 4}, {}};
   map.observations = {1, 2, 3};
+  map.patches = {{map.ids[1], {0.1, 0.2, 0.3}, {0, 127, 128, 255}}};
   map.landmarks = Eigen::VectorXd::LinSpaced(3 * dimension, -1.0, 2.0 / 3.0);
   const Eigen::Index n = 3 + 3 * dimension;
   map.covariance = 0.3 * Eigen::MatrixXd::Identity(n, n) + Eigen::MatrixXd::Constant(n, n, 0.1);

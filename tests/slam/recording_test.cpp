@@ -1,10 +1,12 @@
 #include "waymark/slam/recording.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "waymark/core/event_list.hpp"
+#include "waymark/io/map_files.hpp"
 #include "waymark/slam/make_filter.hpp"
 
 #include "pictures.hpp"
@@ -143,6 +145,36 @@ TEST(Recording, UnderACoverTheRobotGoesOnByDeadReckoningAndLooksAgainAfterwards)
   for (double t_s = 4.5; t_s < 13.0; t_s += 1.0) EXPECT_GT(variance(t_s + 1.0), variance(t_s)) << t_s;
   const double moved_m = (point_at(*run, 13.0).pose.position() - point_at(*run, 5.0).pose.position()).norm();
   EXPECT_GT(moved_m, 2.0);
+}
+
+TEST(Recording, ACamerasMapIsGoneOnFrom) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "cameras_map.waymark";
+  const std::vector<std::string> settings{"sim.laps=1"};
+  const auto opened = [&](std::vector<std::string> more) {
+    more.insert(more.end(), settings.begin(), settings.end());
+    return open_input("sim:room", {{}, std::move(more)});
+  };
+  constexpr double kMiddle_s = 6.0, kEnd_s = 9.0;
+  auto first = opened({});
+  const auto before = record(*first->source, first->config, {0.0, kMiddle_s});
+  ASSERT_TRUE(before.ok());
+  const MapState map = save_map(*before);
+  ASSERT_GT(map.ids.size(), 10U);
+  EXPECT_EQ(map.patches.size(), map.ids.size());
+  ASSERT_TRUE(write_map(path, map).ok());
+  auto second = opened({"map.file=" + path.string()});
+  const auto after = record(*second->source, second->config, {kMiddle_s, kEnd_s});
+  ASSERT_TRUE(after.ok());
+  const auto whole_source = opened({});
+  const auto whole = record(*whole_source->source, whole_source->config, {0.0, kEnd_s});
+  ASSERT_TRUE(whole.ok());
+  const auto matched_at_once = std::ranges::count_if(after->innovations, [&](const auto& each) {
+    return each.innovation.outcome == Outcome::kMatched &&
+           to_seconds(each.stamp - after->innovations.front().stamp) < 0.2;
+  });
+  EXPECT_GT(matched_at_once, 20);
+  const Pose2 here = after->trajectory.back().pose, there = whole->trajectory.back().pose;
+  EXPECT_LT((here.position() - there.position()).norm(), 0.05);
 }
 
 TEST(Recording, LostPicturesAreBridged) {

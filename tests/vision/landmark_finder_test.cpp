@@ -18,7 +18,7 @@ class Finder : public ::testing::Test {
   Finder() : random_(1, StreamPurpose::kWorld), image_(test::squares(320, 240, random_)) {}
 
   [[nodiscard]] Appearance appearance(int u, int v) const {
-    return {here_, WarpedPatch(*cut_reference(image_, u, v), 16)};
+    return {{}, here_, WarpedPatch(*cut_reference(image_, u, v), 16)};
   }
   [[nodiscard]] Expectation expectation(int u, int v, const Eigen::Vector2d& error) const {
     const Eigen::Vector2d pixel(u, v), xy = camera_.ray(pixel)->xy;

@@ -27,7 +27,7 @@ TEST(VisualMemory, HoldsWhatItWasToldUntilItIsToForget) {
   for (int i = 0; i < 3000; ++i) {
     const int number = static_cast<int>(random.uniform(0.0, 200.0));
     if (random.uniform(0.0, 1.0) < 0.5) {
-      memory.remember(corner(number), grey_patch(number), {});
+      memory.remember(corner(number), grey_patch(number), {}, {});
       known.insert(number);
     } else {
       memory.forget(corner(number));
@@ -46,9 +46,9 @@ TEST(VisualMemory, HoldsWhatItWasToldUntilItIsToForget) {
 
 TEST(VisualMemory, TellsFamiliesApartAndReplacesWhatItKnew) {
   VisualMemory memory(16);
-  memory.remember(corner(3), grey_patch(10), {});
+  memory.remember(corner(3), grey_patch(10), {}, {});
   EXPECT_EQ(memory.find({LandmarkId::Family::kMarker, 3}), nullptr);
-  memory.remember(corner(3), grey_patch(20), {});
+  memory.remember(corner(3), grey_patch(20), {}, {});
   EXPECT_EQ(grey_of(memory.find(corner(3))), 20);
   EXPECT_EQ(memory.size(), 1U);
 }
@@ -57,7 +57,7 @@ TEST(VisualMemory, AllocatesNothingWhileItHoldsFewerThanItHasRoomFor) {
   VisualMemory memory(16);
   const test::AllocationCount count;
   for (int i = 0; i < 1000; ++i) {
-    memory.remember(corner(i), grey_patch(i % 256), {});
+    memory.remember(corner(i), grey_patch(i % 256), {}, {});
     if (i >= 100) memory.forget(corner(i - 100));
   }
   EXPECT_EQ(count.allocations(), 0);

@@ -39,12 +39,6 @@ std::vector<Common> common_landmarks(const MapState& first, const MapState& seco
 /// Where in mean and covariance a landmark stands.
 Index row(int landmark) { return 3 + 2 * Index{landmark}; }
 
-Eigen::VectorXd mean_of(const MapState& map) {
-  Eigen::VectorXd mean(3 + map.landmarks.size());
-  mean << map.T_world_robot.x_m, map.T_world_robot.y_m, map.T_world_robot.theta_rad, map.landmarks;
-  return mean;
-}
-
 /// Mean and covariance of (pose, landmarks) in another frame, and their Jacobian to (x, y, theta) of T.
 struct Moved {
   Eigen::VectorXd mean;

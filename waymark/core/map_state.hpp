@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ struct Snapshot {
   std::vector<LandmarkEstimate> landmarks;
 };
 
+/// What a landmark looks like to a camera.
+struct LandmarkPatch {
+  LandmarkId id;
+  Pose2 T_world_robot;               ///< where the robot was believed to be when the patch was cut
+  std::vector<std::uint8_t> pixels;  ///< grey, a square with the landmark in its middle, row by row
+};
+
 /// The whole belief with its correlations, as it is saved: mean and covariance of (pose, landmark 1, landmark
 /// 2, ...).
 struct MapState {
@@ -38,9 +46,17 @@ struct MapState {
   Stamp stamp;
   Pose2 T_world_robot;
   std::vector<LandmarkId> ids;
-  std::vector<int> observations;  ///< sightings per landmark
-  Eigen::VectorXd landmarks;      ///< stacked positions, m
-  Eigen::MatrixXd covariance;     ///< symmetric, 3 + dimension * landmarks
+  std::vector<int> observations;       ///< sightings per landmark
+  Eigen::VectorXd landmarks;           ///< stacked positions, m
+  Eigen::MatrixXd covariance;          ///< symmetric, 3 + dimension * landmarks
+  std::vector<LandmarkPatch> patches;  ///< of landmarks that a camera looks for
 };
+
+/// (x, y, theta, landmark 1, landmark 2, ...), in the order of the covariance.
+inline Eigen::VectorXd mean_of(const MapState& map) {
+  Eigen::VectorXd mean(3 + map.landmarks.size());
+  mean << map.T_world_robot.x_m, map.T_world_robot.y_m, map.T_world_robot.theta_rad, map.landmarks;
+  return mean;
+}
 
 }  // namespace waymark

@@ -93,9 +93,7 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
 }
 
 void EkfSlam::load(const MapState& map) {
-  Eigen::VectorXd mean(3 + map.landmarks.size());
-  mean << map.T_world_robot.x_m, map.T_world_robot.y_m, map.T_world_robot.theta_rad, map.landmarks;
-  state_.load(mean, map.covariance);
+  state_.load(mean_of(map), map.covariance);
   for (std::size_t i = 0; i < map.ids.size(); ++i) {
     const auto landmark = static_cast<int>(i);
     landmarks_.push_back({.id = map.ids[i],

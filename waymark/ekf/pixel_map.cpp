@@ -13,6 +13,15 @@ PixelMap::PixelMap(int capacity, int anchors, Consistency consistency, int threa
   owners_.reserve(static_cast<std::size_t>(capacity) + static_cast<std::size_t>(anchors));
 }
 
+void PixelMap::load(const MapState& map) {
+  state_.load(mean_of(map), map.covariance);
+  for (std::size_t i = 0; i < map.ids.size(); ++i) {
+    const auto element = static_cast<int>(i);
+    owners_.push_back({false, element});
+    features_.push_back({.id = map.ids[i], .element = element, .observations = map.observations[i]});
+  }
+}
+
 std::optional<int> PixelMap::find(LandmarkId id) const {
   const auto found = std::ranges::find(features_, id, &Feature::id);
   if (found == features_.end()) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "waymark/core/map_state.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/ekf/state.hpp"
 #include "waymark/models/pixel_model.hpp"
@@ -28,6 +29,9 @@ class PixelMap {
   };
 
   PixelMap(int capacity, int anchors, Consistency consistency, int threads, int error_pairs);
+
+  /// Starts from a saved map of points; only before anything was added. It must fit.
+  void load(const MapState& map);
 
   [[nodiscard]] State& state() { return state_; }
   [[nodiscard]] const State& state() const { return state_; }

@@ -787,6 +787,18 @@ int PixelSlam::candidates() const {
       std::ranges::count_if(candidates_, [](const Candidate& c) { return c.anchor >= 0; }));
 }
 
+void PixelSlam::load(const MapState& map) {
+  map_.load(map);
+  for (int i = 0; i < static_cast<int>(map.ids.size()); ++i) {
+    ekf::PixelMap::Feature& feature = map_.feature(i);
+    const auto patch = std::ranges::find(map.patches, feature.id, &LandmarkPatch::id);
+    const Pose2& seen_at = patch != map.patches.end() ? patch->T_world_robot : map.T_world_robot;
+    feature.seen_from_m = camera_.pose(seen_at).p_world_camera;
+    feature.first_view_m = feature.seen_from_m - map_.state().landmark(feature.element);
+    management_.added();
+  }
+}
+
 MapState PixelSlam::save() const {
   const ekf::State& state = map_.state();
   MapState saved;

@@ -53,6 +53,10 @@ class PixelSlam final : public Filter {
   PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, const CameraOptions& camera,
             int threads = 1);
 
+  /// Goes on from a saved map of points; only before anything was predicted or seen. It must fit. A landmark
+  /// without patch is taken to have been seen from where the map ends.
+  void load(const MapState& map);
+
   void predict(const Motion& motion) override;
   /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
   /// once per picture. Valid until the next call of anything that changes the filter.

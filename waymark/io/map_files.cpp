@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -91,6 +92,28 @@ void append_covariance(std::string& text, const Eigen::MatrixXd& P) {
   }
 }
 
+constexpr std::string_view kHexDigits = "0123456789abcdef";
+
+void append_hex(std::string& text, std::span<const std::uint8_t> bytes) {
+  for (const std::uint8_t byte : bytes) {
+    text += kHexDigits[byte / 16];
+    text += kHexDigits[byte % 16];
+  }
+}
+
+void append_patches(std::string& text, const MapState& map) {
+  if (map.patches.empty()) return;
+  text += fmt::format("patches: {}\n", map.patches.size());
+  for (const LandmarkPatch& patch : map.patches) {
+    text += family_name(patch.id.family);
+    append_integer(text += ' ', patch.id.number);
+    const Pose2& pose = patch.T_world_robot;
+    for (const double value : {pose.x_m, pose.y_m, pose.theta_rad}) append_shortest(text += ' ', value);
+    append_hex(text += ' ', patch.pixels);
+    text += '\n';
+  }
+}
+
 /// Reads map.waymark line by line. As in a TextTable the first thing wrong stays in `error` and what is read
 /// after it is of no meaning.
 class MapReader {
@@ -103,7 +126,7 @@ class MapReader {
     const int count = integer_after("landmarks");
     read_landmarks(map, count);
     read_covariance(map);
-    if (next_line("the line `end`") && lines_.line() != kMapEnd) fail("expected the line `end`");
+    read_patches_and_end(map);
     if (!error_) check(map);
     if (error_) return *error_;
     return map;
@@ -218,6 +241,37 @@ class MapReader {
     if (!error_) map.covariance.triangularView<Eigen::StrictlyUpper>() = map.covariance.transpose();
   }
 
+  void read_patches_and_end(MapState& map) {
+    if (!next_line("the line `end`")) return;
+    if (lines_.line().starts_with("patches: ")) {
+      std::string_view rest = lines_.line().substr(std::string_view("patches: ").size());
+      const int count = take_integer(rest);
+      expect_end_of_line(rest);
+      for (int i = 0; i < count && next_line("all its patches"); ++i) map.patches.push_back(take_patch());
+      if (!next_line("the line `end`")) return;
+    }
+    if (lines_.line() != kMapEnd) fail("expected the line `end`");
+  }
+
+  LandmarkPatch take_patch() {
+    std::string_view rest = lines_.line();
+    LandmarkPatch patch;
+    patch.id = take_id(rest);
+    patch.T_world_robot = {take_number(rest), take_number(rest), take_number(rest)};
+    const std::string_view hex = take_word(rest);
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+      const std::size_t high = kHexDigits.find(hex[i]), low = kHexDigits.find(hex[i + 1]);
+      if (high == std::string_view::npos || low == std::string_view::npos)
+        fail("the pixels of a patch are two hexadecimal digits each");
+      patch.pixels.push_back(static_cast<std::uint8_t>(16 * high + low));
+    }
+    const double side = std::sqrt(static_cast<double>(patch.pixels.size()));
+    if (hex.empty() || hex.size() % 2 != 0 || side != std::floor(side))
+      fail("the pixels of a patch are a square of two hexadecimal digits each");
+    expect_end_of_line(rest);
+    return patch;
+  }
+
   void check(const MapState& map) {
     auto ids = map.ids;
     std::erase_if(ids, [](LandmarkId id) { return id.family == LandmarkId::Family::kNone; });
@@ -226,6 +280,10 @@ class MapReader {
       error_ = Error{fmt::format("{}: landmark {} stands here twice", lines_.name(), to_string(*twice))};
     else if (!is_covariance(map.covariance))
       error_ = Error{lines_.name() + ": the covariance is not positive semi-definite"};
+    for (const LandmarkPatch& patch : map.patches)
+      if (!error_ && std::ranges::find(map.ids, patch.id) == map.ids.end())
+        error_ = Error{fmt::format("{}: a patch of landmark {}, which is not in the map", lines_.name(),
+                                   to_string(patch.id))};
   }
 
   TextLines lines_;
@@ -276,6 +334,7 @@ Result<std::string> format_map(const MapState& map) {
   append_header(text, map);
   append_landmarks(text, map);
   append_covariance(text, map.covariance);
+  append_patches(text, map);
   return text.append(kMapEnd) += '\n';
 }
 

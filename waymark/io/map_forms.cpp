@@ -39,6 +39,24 @@ Json landmarks_json(const MapState& map) {
   return landmarks;
 }
 
+Json patches_json(const MapState& map) {
+  Json patches = Json::array();
+  for (const LandmarkPatch& patch : map.patches) {
+    const Pose2& pose = patch.T_world_robot;
+    patches.push_back({{"kind", family_name(patch.id.family)},
+                       {"number", patch.id.number},
+                       {"pose", {pose.x_m, pose.y_m, pose.theta_rad}},
+                       {"pixels", patch.pixels}});
+  }
+  return patches;
+}
+
+Pose2 pose_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+
+LandmarkId id_of(const Json& json) {
+  return {family_named(json.at("kind").get<std::string>()).value(), json.at("number")};
+}
+
 std::string format_json(const MapState& map) {
   const Pose2& pose = map.T_world_robot;
   Json json{{"waymark_map", 1},
@@ -47,7 +65,8 @@ std::string format_json(const MapState& map) {
             {"pose", {pose.x_m, pose.y_m, pose.theta_rad}},
             {"landmark_dimension", map.landmark_dimension},
             {"landmarks", landmarks_json(map)},
-            {"covariance", Json::array()}};
+            {"covariance", Json::array()},
+            {"patches", patches_json(map)}};
   for (Eigen::Index i = 0; i < map.covariance.rows(); ++i) {
     const Eigen::VectorXd row = map.covariance.row(i).tail(map.covariance.cols() - i);
     json["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
@@ -59,11 +78,11 @@ MapState map_of(const Json& json) {
   MapState map;
   map.made_by = json.at("made_by").get<std::string>();
   map.stamp = parse_stamp(json.at("stamp_s").get<std::string>()).value();
-  map.T_world_robot = {json.at("pose").at(0), json.at("pose").at(1), json.at("pose").at(2)};
+  map.T_world_robot = pose_of(json.at("pose"));
   map.landmark_dimension = json.at("landmark_dimension");
   std::vector<double> coordinates;
   for (const Json& landmark : json.at("landmarks")) {
-    map.ids.push_back({family_named(landmark.at("kind").get<std::string>()).value(), landmark.at("number")});
+    map.ids.push_back(id_of(landmark));
     map.observations.push_back(landmark.at("sightings"));
     for (const Json& coordinate : landmark.at("position_m")) coordinates.push_back(coordinate);
   }
@@ -76,6 +95,8 @@ MapState map_of(const Json& json) {
     for (Eigen::Index j = i; j < n; ++j)
       map.covariance(i, j) = map.covariance(j, i) =
           rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j - i));
+  for (const Json& patch : json.at("patches"))
+    map.patches.push_back({id_of(patch), pose_of(patch.at("pose")), patch.at("pixels")});
   return map;
 }
 

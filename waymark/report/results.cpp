@@ -18,13 +18,9 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
 }
 
 Result<void> write_maps(const RunResult& result, const std::filesystem::path& folder) {
-  const Stamp stamp =
-      result.recording.trajectory.empty() ? Stamp{} : result.recording.trajectory.back().stamp;
-  Snapshot snapshot = result.recording.filter->snapshot();
-  snapshot.stamp = stamp;
+  const Snapshot snapshot = result.recording.filter->snapshot();
   if (auto written = write_map_csv(folder / "map.csv", snapshot); !written) return written;
-  MapState map = result.recording.filter->save();
-  map.stamp = stamp;
+  MapState map = save_map(result.recording);
   map.made_by = result.metrics.filter + " on " + result.input;
   return write_map(folder / "map.waymark", map);
 }

@@ -26,6 +26,10 @@ class CameraFrontEnd {
   /// What became of everything that was looked for in the last picture.
   [[nodiscard]] std::span<const vision::Look> looks() const { return tracker_.looks(); }
 
+  /// What landmarks look like: out of it, and into another one. Allocate.
+  [[nodiscard]] std::vector<LandmarkPatch> patches() const { return tracker_.patches(); }
+  void remember(std::span<const LandmarkPatch> patches) { tracker_.remember(patches); }
+
   [[nodiscard]] const vision::TrackerCounts& counts() const { return tracker_.counts(); }
 
   /// Blocks of filter and tracker in one table, by their names. Allocates.

@@ -10,27 +10,27 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
   return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
 }
 
-/// EKF-SLAM over range and bearing, on from a saved map where there is one.
-Result<std::unique_ptr<Filter>> make_range_bearing_ekf(const Config& config) {
-  std::optional<MapState> map;
-  if (!config.map.file.empty()) {
-    auto read = read_start_map(config.map, config.ekf.capacity);
-    if (!read) return read.error();
-    map = *std::move(read);
-  }
-  if (config.map.localize)
-    return std::unique_ptr<Filter>(std::make_unique<Localizer>(*std::move(map), config.ekf, config.gate,
-                                                               config.sensor.T_robot_sensor(), config.threads,
-                                                               config.sensor.errors, unnamed(config)));
+/// EKF-SLAM over range and bearing.
+std::unique_ptr<Filter> make_range_bearing_ekf(const Config& config, const std::optional<MapState>& start) {
+  const auto T_robot_sensor = config.sensor.T_robot_sensor();
+  if (config.map.localize && start)
+    return std::make_unique<Localizer>(*start, config.ekf, config.gate, T_robot_sensor, config.threads,
+                                       config.sensor.errors, unnamed(config));
   EkfOptions options = config.ekf;
-  if (map) options.loaded = static_cast<int>(map->ids.size());
-  auto filter = std::make_unique<EkfSlam>(options, config.gate, config.sensor.T_robot_sensor(),
-                                          config.threads, config.sensor.errors, unnamed(config));
-  if (map) filter->load(*map);
-  return std::unique_ptr<Filter>(std::move(filter));
+  if (start) options.loaded = static_cast<int>(start->ids.size());
+  auto filter = std::make_unique<EkfSlam>(options, config.gate, T_robot_sensor, config.threads,
+                                          config.sensor.errors, unnamed(config));
+  if (start) filter->load(*start);
+  return filter;
 }
 
-Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
+std::unique_ptr<Filter> make_pixel_ekf(const Config& config, const std::optional<MapState>& start) {
+  auto filter = std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads);
+  if (start) filter->load(*start);
+  return filter;
+}
+
+Result<std::unique_ptr<Filter>> make_ekf(const Config& config, const std::optional<MapState>& start) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
   if (config.associate != Association::kKnown && config.observe == Observe::kPixel)
@@ -40,10 +40,9 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
-      return make_range_bearing_ekf(config);
+      return make_range_bearing_ekf(config, start);
     case Observe::kPixel:
-      return std::unique_ptr<Filter>(
-          std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
+      return make_pixel_ekf(config, start);
     case Observe::kRange:
     case Observe::kBearing:
       return Error{
@@ -68,22 +67,42 @@ Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
 
 }  // namespace
 
-Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
-  const bool takes_map = config.filter == FilterKind::kEkf && config.observe == Observe::kRangeBearing;
-  if (!config.map.file.empty() && !takes_map)
-    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing"};
+Result<std::optional<MapState>> read_start_map(const Config& config) {
+  const bool pixels = config.observe == Observe::kPixel;
   if (config.map.localize && config.map.file.empty())
     return Error{"map.localize: needs a saved map: --map FILE (config key map.file)"};
-  if (!config.map.file.empty() && config.smooth.run)
+  if (config.map.file.empty()) return std::optional<MapState>{};
+  if (config.filter != FilterKind::kEkf || (!pixels && config.observe != Observe::kRangeBearing))
+    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing or pixel"};
+  if (config.map.localize && pixels)
+    return Error{
+        "map.localize: needs observe=range-bearing; with pixels a run goes on from the pose in the map "
+        "(map.localize=false)"};
+  if (config.smooth.run)
     return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
-  return config.filter == FilterKind::kEkf ? make_ekf(config) : make_fastslam(config);
+  auto map = pixels ? read_start_map(config.map, 3, config.pixel.capacity)
+                    : read_start_map(config.map, 2, config.ekf.capacity);
+  if (!map) return map.error();
+  return std::optional(*std::move(map));
 }
 
-std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter) {
+Result<std::unique_ptr<Filter>> make_filter(const Config& config, const std::optional<MapState>& start) {
+  return config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
+}
+
+Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
+  const auto start = read_start_map(config);
+  return start ? make_filter(config, *start) : start.error();
+}
+
+std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter,
+                                               const std::optional<MapState>& start) {
   auto* pixels = dynamic_cast<PixelSlam*>(&filter);
   if (pixels == nullptr) return nullptr;
-  return std::make_unique<CameraFrontEnd>(*pixels, config.tracker, config.search, Camera(config.camera),
-                                          config.threads);
+  auto front_end = std::make_unique<CameraFrontEnd>(*pixels, config.tracker, config.search,
+                                                    Camera(config.camera), config.threads);
+  if (start) front_end->remember(start->patches);
+  return front_end;
 }
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }

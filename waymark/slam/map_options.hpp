@@ -16,7 +16,7 @@ struct MapOptions {
 
 void describe(Schema& schema, MapOptions& options);
 
-/// Reads the map, for a filter of landmarks in the plane with room for `capacity` of them.
-[[nodiscard]] Result<MapState> read_start_map(const MapOptions& options, int capacity);
+/// Reads the map, for a filter of landmarks of this dimension with room for `capacity` of them.
+[[nodiscard]] Result<MapState> read_start_map(const MapOptions& options, int dimension, int capacity);
 
 }  // namespace waymark

@@ -134,6 +134,7 @@ std::optional<Error> find_unknown_pose(const Filter& filter) {
 }
 
 void finish_pictures(Recording& recording, const Config& config, const CameraFrontEnd& front_end) {
+  recording.patches = front_end.patches();
   recording.frame_budget = duration_from_seconds(1e-3 * config.tracker.budget.per_frame_ms);
   const vision::TrackerCounts& counts = recording.tracker = front_end.counts();
   if (counts.unusable > 0)
@@ -154,11 +155,13 @@ std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const CameraFro
 
 Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
                          const std::function<bool(double)>& keep_going) {
-  auto filter = make_filter(config);
+  const auto start_map = read_start_map(config);
+  if (!start_map) return start_map.error();
+  auto filter = make_filter(config, *start_map);
   if (!filter) return filter.error();
   Recording recording;
   recording.filter = std::move(*filter);
-  const auto front_end = make_front_end(config, *recording.filter);
+  const auto front_end = make_front_end(config, *recording.filter, *start_map);
   Pipeline pipeline(
       *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
       [&](const Step& step) {
@@ -182,6 +185,14 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;
+}
+
+MapState save_map(const Recording& recording) {
+  MapState map = recording.filter->save();
+  if (!recording.trajectory.empty()) map.stamp = recording.trajectory.back().stamp;
+  for (const LandmarkPatch& patch : recording.patches)
+    if (std::ranges::find(map.ids, patch.id) != map.ids.end()) map.patches.push_back(patch);
+  return map;
 }
 
 }  // namespace waymark

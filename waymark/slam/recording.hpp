@@ -43,8 +43,9 @@ struct Recording {
   FilmStrip film;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
-  vision::TrackerCounts tracker;   ///< of what looks into pictures
-  std::vector<std::string> notes;  ///< what was skipped or odd, one line each
+  vision::TrackerCounts tracker;       ///< of what looks into pictures
+  std::vector<std::string> notes;      ///< what was skipped or odd, one line each
+  std::vector<LandmarkPatch> patches;  ///< what landmarks and candidates look like at the end
   Duration wall{0};
   std::unique_ptr<Filter> filter;  ///< as the last event left it
   std::optional<Error> error;      ///< why reading stopped before the end; everything above holds up to there
@@ -60,5 +61,9 @@ struct TimeSpan {
 /// the log done; false stops the run, which keeps what it has.
 [[nodiscard]] Result<Recording> record(Source& source, const Config& config, const TimeSpan& span = {},
                                        const std::function<bool(double)>& keep_going = {});
+
+/// What is known at the end of it: the map that another run can start from. Who made it is the caller's to
+/// fill in.
+[[nodiscard]] MapState save_map(const Recording& recording);
 
 }  // namespace waymark

@@ -82,6 +82,7 @@ class WarpedPatch {
   const Patch& seen_under(const Eigen::Matrix2d& A);
   [[nodiscard]] const Patch& patch() const { return patch_; }
   [[nodiscard]] const Eigen::Matrix2d& A() const { return A_; }
+  [[nodiscard]] const ReferencePatch& reference() const { return reference_; }
 
  private:
   ReferencePatch reference_;

@@ -74,6 +74,7 @@ void Tracker::begin(const ImageView& image, const Pose2& T_world_robot,
   for (const LandmarkId id : proposed_) memory_.forget(id);
   proposed_.clear();
   image_ = image;
+  T_world_robot_ = T_world_robot;
   here_ = camera_.pose(T_world_robot);
   copy(expectations);
   corners_ = {};
@@ -99,8 +100,22 @@ void Tracker::copy(std::span<const Expectation> expectations) {
     looks_.push_back({.id = e.id, .candidate = e.candidate, .predicted_px = e.predicted_px, .S = e.S});
     if (appearances_.back() != nullptr && camera_.sees(e.predicted_px)) features_.push_back(e.predicted_px);
     candidates_under_way_ += e.candidate;
-    // Never a number that is in use, also where the map came from elsewhere.
-    if (e.id.family == LandmarkId::Family::kCorner) next_number_ = std::max(next_number_, e.id.number + 1);
+    avoid(e.id);
+  }
+}
+
+/// Never a number that is in use, also where the map came from elsewhere.
+void Tracker::avoid(LandmarkId id) {
+  if (id.family == LandmarkId::Family::kCorner) next_number_ = std::max(next_number_, id.number + 1);
+}
+
+void Tracker::remember(std::span<const LandmarkPatch> patches) {
+  for (const LandmarkPatch& patch : patches) {
+    ReferencePatch reference;
+    if (patch.pixels.size() != reference.pixels.size()) continue;
+    std::ranges::copy(patch.pixels, reference.pixels.begin());
+    memory_.remember(patch.id, reference, patch.T_world_robot, camera_.pose(patch.T_world_robot));
+    avoid(patch.id);
   }
 }
 
@@ -199,7 +214,7 @@ void Tracker::add_new_corners() {
     const auto reference = cut_reference(image_, corner.u, corner.v);
     if (!reference) continue;
     const LandmarkId id{LandmarkId::Family::kCorner, next_number_++};
-    memory_.remember(id, *reference, here_);
+    memory_.remember(id, *reference, T_world_robot_, here_);
     proposed_.push_back(id);
     const Eigen::Vector2d pixel(corner.u, corner.v);
     candidates_.found.push_back({id, Pixel{pixel.x(), pixel.y()},

@@ -69,6 +69,12 @@ class Tracker {
   /// finish(), for what it made of match().
   void learn(const Correction& correction);
 
+  /// What landmarks and candidates look like. Allocates.
+  [[nodiscard]] std::vector<LandmarkPatch> patches() const { return memory_.patches(); }
+  /// Knows from now on what these look like; ReferencePatch::kSide squared pixels each, others are passed
+  /// over.
+  void remember(std::span<const LandmarkPatch> patches);
+
   /// How much of the frame's budget others need.
   void leave_time(Duration others) { others_ = others; }
 
@@ -92,6 +98,7 @@ class Tracker {
   };
 
   void copy(std::span<const Expectation> expectations);
+  void avoid(LandmarkId id);
   void look_behind();
   void save_up();
   void look_for(bool candidates, int most, Seeker& seeker);
@@ -121,6 +128,7 @@ class Tracker {
   std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be looked for
   int candidates_under_way_ = 0;
   std::span<const Corner> corners_;
+  Pose2 T_world_robot_;
   std::vector<LandmarkId> proposed_;  ///< new corners of which learn() has not heard yet
   std::int32_t next_number_ = 0;
 

@@ -19,9 +19,10 @@ Appearance* VisualMemory::find(LandmarkId id) {
   return place != entries_.end() && place->id == id ? &slots_[place->slot] : nullptr;
 }
 
-void VisualMemory::remember(LandmarkId id, const ReferencePatch& reference, const CameraPose& seen_from) {
+void VisualMemory::remember(LandmarkId id, const ReferencePatch& reference, const Pose2& T_world_robot,
+                            const CameraPose& seen_from) {
   forget(id);
-  const std::size_t slot = store({seen_from, WarpedPatch(reference, patch_px_)});
+  const std::size_t slot = store({T_world_robot, seen_from, WarpedPatch(reference, patch_px_)});
   entries_.insert(place_of(id), {id, slot});
 }
 
@@ -34,6 +35,16 @@ std::size_t VisualMemory::store(const Appearance& appearance) {
   free_.pop_back();
   slots_[slot] = appearance;
   return slot;
+}
+
+std::vector<LandmarkPatch> VisualMemory::patches() const {
+  std::vector<LandmarkPatch> patches;
+  for (const Entry& entry : entries_) {
+    const Appearance& appearance = slots_[entry.slot];
+    const auto& pixels = appearance.patch.reference().pixels;
+    patches.push_back({entry.id, appearance.T_world_robot, {pixels.begin(), pixels.end()}});
+  }
+  return patches;
 }
 
 void VisualMemory::forget(LandmarkId id) {

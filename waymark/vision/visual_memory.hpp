@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "waymark/core/map_state.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/models/camera.hpp"
 #include "waymark/vision/patch.hpp"
@@ -11,7 +12,8 @@ namespace waymark::vision {
 
 /// What a landmark looks like.
 struct Appearance {
-  CameraPose seen_from;  ///< where the camera was believed to be when the patch was cut
+  Pose2 T_world_robot;   ///< where the robot was believed to be when the patch was cut,
+  CameraPose seen_from;  ///< and the camera
   WarpedPatch patch;
 };
 
@@ -26,9 +28,12 @@ class VisualMemory {
   /// Null where nothing is known. Valid until the next remember(), even if forgotten meanwhile.
   [[nodiscard]] Appearance* find(LandmarkId id);
   /// In place of what was known under this identity.
-  void remember(LandmarkId id, const ReferencePatch& reference, const CameraPose& seen_from);
+  void remember(LandmarkId id, const ReferencePatch& reference, const Pose2& T_world_robot,
+                const CameraPose& seen_from);
   void forget(LandmarkId id);
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  /// All of it, in the order of identities. Allocates.
+  [[nodiscard]] std::vector<LandmarkPatch> patches() const;
 
  private:
   struct Entry {
