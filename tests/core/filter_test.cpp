@@ -11,14 +11,14 @@ namespace {
 
 constexpr Outcome kOutcomes[] = {Outcome::kMatched,      Outcome::kAdded,    Outcome::kGated,
                                  Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous,
-                                 Outcome::kDuplicate,    Outcome::kMapFull};
+                                 Outcome::kDuplicate,    Outcome::kPending,  Outcome::kMapFull};
 
 TEST(Correction, CountsInnovationsByOutcome) {
   std::vector<Innovation> innovations;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 9; ++i)
     for (int copies = 0; copies < i; ++copies) innovations.push_back({.outcome = kOutcomes[i]});
   const Correction correction{.innovations = innovations, .removed = {}};
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(correction.count(kOutcomes[i]), i);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(correction.count(kOutcomes[i]), i);
 }
 
 TEST(Correction, IsEmptyByDefault) {
@@ -29,7 +29,7 @@ TEST(Correction, IsEmptyByDefault) {
 TEST(Outcome, EachHasItsOwnDescription) {
   std::set<std::string> descriptions;
   for (const Outcome outcome : kOutcomes) descriptions.insert(describe(outcome));
-  EXPECT_EQ(descriptions.size(), 8U);
+  EXPECT_EQ(descriptions.size(), 9U);
   EXPECT_FALSE(descriptions.contains("unknown"));
 }
 

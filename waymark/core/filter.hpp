@@ -20,6 +20,7 @@ enum class Outcome : std::uint8_t {
   kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
   kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
   kDuplicate,  ///< a second sighting of one landmark in one scan
+  kPending,    ///< kept until it can be told, with others, where its landmark is
   kMapFull,    ///< would have been a new landmark, but there is no room
 };
 

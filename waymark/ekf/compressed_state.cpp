@@ -305,12 +305,15 @@ Sighting CompressedState::in_active(const Sighting& sighting) const {
   Sighting local = sighting;
   local.landmark = local_of(sighting.landmark);
   if (sighting.anchor >= 0) local.anchor = local_of(sighting.anchor);
+  if (sighting.second_anchor >= 0) local.second_anchor = local_of(sighting.second_anchor);
   return local;
 }
 
 Sighting CompressedState::moved_back(const Sighting& sighting) const {
   Sighting back = active_.moved_back(in_active(sighting));
   back.landmark = sighting.landmark;
+  back.anchor = sighting.anchor;
+  back.second_anchor = sighting.second_anchor;
   return back;
 }
 

@@ -64,7 +64,7 @@ class CompressedState {
     return active_.common_covariance(in_active(a), in_active(b));
   }
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
-  /// The anchor of a sighting, if any, must be in the region.
+  /// The anchors of a sighting, if any, must be in the region.
   [[nodiscard]] bool propose(std::span<const Sighting> sightings);
   void accept();
   /// Of sighted landmarks only.

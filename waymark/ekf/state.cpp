@@ -147,10 +147,17 @@ Eigen::Vector2d State::join_robot_rows() {
 }
 
 Touched State::touched(const Sighting& sighting, int rows) const {
-  const bool anchored = sighting.anchor >= 0;
-  Touched t(sighting.H_pose.topRows(rows), sighting.errors, (anchored ? 2 : 1) * dimension_);
-  t.set_landmark(t.head, offset(sighting.landmark), dimension_, sighting.H_landmark);
-  if (anchored) t.set_landmark(t.head + dimension_, offset(sighting.anchor), dimension_, sighting.H_anchor);
+  const int points = 1 + (sighting.anchor >= 0 ? 1 : 0) + (sighting.second_anchor >= 0 ? 1 : 0);
+  Touched t(sighting.H_pose.topRows(rows), sighting.errors, points * dimension_);
+  int column = t.head;
+  const auto touch = [&](int landmark, const Eigen::Matrix<double, 2, 3>& H) {
+    if (landmark < 0) return;
+    t.set_landmark(column, offset(landmark), dimension_, H);
+    column += dimension_;
+  };
+  touch(sighting.landmark, sighting.H_landmark);
+  touch(sighting.anchor, sighting.H_anchor);
+  touch(sighting.second_anchor, sighting.H_second_anchor);
   return t;
 }
 
@@ -260,11 +267,12 @@ Eigen::Vector2d State::proposed_expected(const ErrorTerms& terms) const {
 }
 
 Eigen::Vector2d State::explained(const Sighting& sighting) const {
-  return sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
-         sighting.H_landmark * point(dx_, sighting.landmark) +
-         (sighting.anchor < 0 ? Eigen::Vector2d::Zero()
-                              : (sighting.H_anchor * point(dx_, sighting.anchor)).eval()) +
-         error_part(sighting.errors, dx_);
+  Eigen::Vector2d sum = sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
+                        sighting.H_landmark * point(dx_, sighting.landmark) +
+                        error_part(sighting.errors, dx_);
+  if (sighting.anchor >= 0) sum += sighting.H_anchor * point(dx_, sighting.anchor);
+  if (sighting.second_anchor >= 0) sum += sighting.H_second_anchor * point(dx_, sighting.second_anchor);
+  return sum;
 }
 
 /// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
@@ -282,6 +290,8 @@ Sighting State::moved_back(const Sighting& sighting) const {
       back.H_pose.col(2) += turned(sighting.H_landmark, point(dx_, sighting.landmark).head<2>());
     if (sighting.anchor >= 0)
       back.H_pose.col(2) += turned(sighting.H_anchor, point(dx_, sighting.anchor).head<2>());
+    if (sighting.second_anchor >= 0)
+      back.H_pose.col(2) += turned(sighting.H_second_anchor, point(dx_, sighting.second_anchor).head<2>());
   }
   back.nu += explained(back);
   return back;

@@ -26,7 +26,7 @@ using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 /// What something linear depends on: rows of the state, and its Jacobian to them. First the robot, then
 /// lasting errors, then landmarks.
 struct Touched {
-  static constexpr int kMost = 9 + 2 * kErrorTerms;
+  static constexpr int kMost = 12 + 2 * kErrorTerms;
 
   /// The robot and the errors, with `landmark` columns of zeros for landmarks' rows, which are not set.
   template <class JacobianToPose>

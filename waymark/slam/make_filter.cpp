@@ -11,23 +11,21 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
-  if (config.associate != Association::kKnown && config.observe == Observe::kPixel)
-    return Error{"associate: pixels need identities: associate=known"};
+  if (config.associate != Association::kKnown && config.observe != Observe::kRangeBearing)
+    return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
   if (config.ekf.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
+    case Observe::kRange:
+    case Observe::kBearing:
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate,
                                                                config.sensor.T_robot_sensor(), config.threads,
                                                                config.sensor.errors, unnamed(config)));
     case Observe::kPixel:
       return std::unique_ptr<Filter>(
           std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads));
-    case Observe::kRange:
-    case Observe::kBearing:
-      return Error{
-          "observe: the EKF takes range-bearing and pixel so far; range or bearing alone: filter=fastslam"};
   }
   return Error{"observe: unknown"};
 }
