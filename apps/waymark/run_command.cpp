@@ -96,7 +96,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run sim:room --observe pixel -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
-      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too.");
+      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too; "
+      "that also with --set ekf.calibrate_odometry=true.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 

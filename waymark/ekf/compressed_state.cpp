@@ -63,8 +63,9 @@ int CompressedState::limit() const {
                     active_.capacity());
 }
 
-void CompressedState::predict(const Motion& motion) {
-  active_.predict(motion);
+void CompressedState::predict(const Motion& motion, const ErrorTerms& errors) {
+  assert(!compressing_ || std::ranges::none_of(errors, &ErrorTerm::takes_part));
+  active_.predict(motion, errors);
   step_began_ = now_;
   seen_this_step_ = 0;
 }

@@ -51,8 +51,12 @@ class CompressedState {
   [[nodiscard]] Pose2 linearization_pose() const { return active_.linearization_pose(); }
   [[nodiscard]] Eigen::Vector3d linearization_landmark(int index) const;
   void set_pose(const PoseEstimate& pose) { active_.set_pose(pose); }
-  void predict(const Motion& motion);
+  /// Motions that depend on lasting errors are for maps that are never compressed.
+  void predict(const Motion& motion, const ErrorTerms& errors = {});
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }
+  [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const {
+    return active_.errors_covariance(pair, other);
+  }
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const { return active_.expected(terms); }
   void relax_errors(int pair, double rho);
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;

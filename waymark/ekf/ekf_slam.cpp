@@ -84,11 +84,13 @@ void describe(Schema& schema, EkfOptions& options) {
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
                 "whether a large map is updated region by region, at the cost of a small one; auto: once it "
                 "is large enough to gain");
+  describe(schema, options.odometry);
   schema.integer("ekf.region", options.region, {48, 20000},
                  "landmarks in a region of a compressed map; more where so many are seen at once");
 }
 
 ekf::Compression compression(const EkfOptions& options) {
+  if (options.odometry.estimate) return {options.region, options.capacity};
   switch (options.compressed) {
     case Compress::kAlways:
       return {options.region, options.region};
@@ -103,7 +105,9 @@ ekf::Compression compression(const EkfOptions& options) {
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
                  const SensorErrors& errors, const std::optional<ekf::UnnamedOptions>& unnamed)
     : errors_(errors),
-      state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
+      odometry_(options.odometry, errors_.pairs()),
+      state_(2, options.capacity, options.consistency, compression(options), threads,
+             errors_.pairs() + odometry_.pairs()),
       options_(options),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
@@ -117,12 +121,13 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   refined_.reserve(ekf::CompressedState::kMaxSightings);
   seen_.reserve(ekf::CompressedState::kMaxSightings);
   errors_.start(state_);
+  odometry_.start(state_);
 }
 
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
   if (!is_still(motion) && is_finite(motion)) {
-    state_.predict(motion);
+    odometry_.predict(state_, motion);
     errors_.drive(way_m(motion));
     way_m_ += way_m(motion);
   }

@@ -16,6 +16,7 @@
 #include "waymark/ekf/lasting_errors.hpp"
 #include "waymark/ekf/locate.hpp"
 #include "waymark/ekf/map_management.hpp"
+#include "waymark/ekf/odometry_states.hpp"
 
 namespace waymark {
 
@@ -46,7 +47,8 @@ struct EkfOptions {
   int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   UpdateMethod update = UpdateMethod::kFast;
-  int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
+  OdometryStateOptions odometry;  ///< with which a map is not compressed
+  int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
 };
 
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
@@ -89,6 +91,9 @@ class EkfSlam final : public Filter {
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
+  [[nodiscard]] std::optional<Gaussian<3>> odometry_errors() const override {
+    return odometry_.estimate(state_);
+  }
 
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
   /// How often the robot must have slipped far beyond its odometry: see correct().
@@ -244,6 +249,7 @@ class EkfSlam final : public Filter {
   void note_sigma(int landmark);
 
   ekf::LastingErrors errors_;
+  ekf::OdometryStates odometry_;
   ekf::CompressedState state_;
   EkfOptions options_;
   Gate gate_;

@@ -67,6 +67,12 @@ Eigen::Vector2d State::errors(int pair) const {
   return {x_[first], x_[first + 1]};
 }
 
+Eigen::Matrix2d State::errors_covariance(int pair, int other) const {
+  const std::size_t a = error_offset(pair);
+  const std::size_t b = error_offset(other);
+  return Eigen::Matrix2d{{P(a, b), P(a, b + 1)}, {P(a + 1, b), P(a + 1, b + 1)}};
+}
+
 Eigen::Vector2d State::error_part(const ErrorTerms& terms, const Buffer& values) {
   Eigen::Vector2d part = Eigen::Vector2d::Zero();
   for (const ErrorTerm& term : terms) {
@@ -108,7 +114,7 @@ void State::set_pose(const PoseEstimate& pose) {
       P_[i * ld_ + j] = pose.covariance(static_cast<int>(i), static_cast<int>(j));
 }
 
-void State::predict(const Motion& motion) {
+void State::predict(const Motion& motion, const ErrorTerms& errors) {
   const PoseEstimate before = pose();
   const Pose2 after = before.T_world_robot * motion.increment;
   // F's heading column is J times the displacement between the points of linearisation.
@@ -125,6 +131,33 @@ void State::predict(const Motion& motion) {
   x_[0] = after.x_m;
   x_[1] = after.y_m;
   x_[2] = after.theta_rad;
+  if (std::ranges::any_of(errors, &ErrorTerm::takes_part)) spread_errors(G, errors);
+}
+
+/// With A = G d(increment)/de and P_re as F leaves it: P_rm += A P_em, P_rr += A P_er + P_re A^T + A P_ee
+/// A^T.
+void State::spread_errors(const Eigen::Matrix3d& G, const ErrorTerms& errors) {
+  join_robot_rows();
+  const Touched t(Eigen::Matrix3d::Zero(), errors);
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d own = cross;
+  for (Eigen::Index i = 3; i < t.J.cols(); ++i) {
+    const Eigen::Vector3d a = G * t.J.col(i);
+    const std::size_t row = t.rows[static_cast<std::size_t>(i)];
+    cross += a * Eigen::RowVector3d(P(0, row), P(1, row), P(2, row));
+    for (Eigen::Index j = 3; j < t.J.cols(); ++j)
+      own += P(row, t.rows[static_cast<std::size_t>(j)]) * a * (G * t.J.col(j)).transpose();
+  }
+  const Eigen::Matrix3d more = cross + cross.transpose() + own;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] += more(static_cast<int>(i), static_cast<int>(j));
+  for (std::size_t j = 3; j < size(); ++j) {
+    Eigen::Vector3d column = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 3; i < t.J.cols(); ++i)
+      column += P(t.rows[static_cast<std::size_t>(i)], j) * t.J.col(i);
+    column = (G * column).eval();
+    for (std::size_t i = 0; i < 3; ++i) P_[i * ld_ + j] += column[static_cast<int>(i)];
+  }
 }
 
 double State::covariance(std::size_t i, std::size_t j) const {

@@ -95,11 +95,15 @@ class State {
   /// Replaces the belief in the pose; only before anything was predicted or added.
   void set_pose(const PoseEstimate& pose);
 
-  /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed.
-  void predict(const Motion& motion);
+  /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed. Where
+  /// `errors` say how the motion's increment depends on lasting errors, d(x, y, theta)/derrors, P_rm is
+  /// brought up to date now: O(n).
+  void predict(const Motion& motion, const ErrorTerms& errors = {});
 
   /// Expected values of a pair of lasting errors; zero at first, and certainly so.
   [[nodiscard]] Eigen::Vector2d errors(int pair) const;
+  /// Covariance of a pair with another, or with itself.
+  [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const;
   /// What the state expects of the errors in a sighting.
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const;
   /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance.
@@ -209,6 +213,7 @@ class State {
     return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
   }
   [[nodiscard]] std::size_t place(int i) const;
+  void spread_errors(const Eigen::Matrix3d& G, const ErrorTerms& errors);
 
   std::size_t project(std::span<const Sighting> sightings);
   void form_innovation_covariance(std::span<const Sighting> sightings, int rows);

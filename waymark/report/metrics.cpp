@@ -173,6 +173,8 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.peak_rss_mb = peak_rss_mb();
   metrics.nis_per_dof = nis_per_dof(recording.innovations);
   metrics.truth = truth;
+  if (const auto odometry = recording.filter->odometry_errors())
+    metrics.calibration = calibrated_keys(smooth::calibration_of(*odometry), config);
   return metrics;
 }
 
@@ -199,6 +201,8 @@ std::string to_json(const Metrics& m) {
             {"peak_rss_mb", rounded(m.peak_rss_mb)}};
   put(json, "nis_per_dof", m.nis_per_dof);
   if (m.truth && (m.truth->pairs > 0 || m.truth->map)) json["truth"] = truth_json(*m.truth);
+  for (const auto& [key, value, sigma] : m.calibration)
+    json["calibration"][key] = {{"value", rounded(value)}, {"sigma", rounded(sigma)}};
   if (m.smoothed) json["smoothed"] = smoothed_json(*m.smoothed);
   return json.dump(2) + "\n";
 }
@@ -217,7 +221,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
           smoothed.converged,
           smoothed.poses,
           smoothed.sightings,
-          calibrated_keys(smoothed, config),
+          calibrated_keys(smoothed.calibration, config),
           live,
           truth};
 }
@@ -251,6 +255,13 @@ std::string to_text(const eval::Evaluation& e) {
   return text;
 }
 
+static std::string to_text(const std::vector<smooth::CalibratedKey>& calibration) {
+  std::string text;
+  for (const auto& [key, value, sigma] : calibration)
+    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}\n", key, value, sigma);
+  return text;
+}
+
 static std::string to_text(const SmoothedFigures& s) {
   std::string text = fmt::format("smoothed: {} poses and {} sightings in {:.2f} s{}\n", s.poses, s.sightings,
                                  s.cpu_s, s.converged ? "" : ", not converged");
@@ -260,9 +271,7 @@ static std::string to_text(const SmoothedFigures& s) {
     if (s.truth->map) text += line("landmark RMSE, with the path", s.truth->map->rmse_m, "m");
   }
   text += line("live path was off by, aligned", s.live.path.position_rmse_aligned_m, "m");
-  for (const auto& [key, value, sigma] : s.calibration)
-    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}\n", key, value, sigma);
-  return text;
+  return text + to_text(s.calibration);
 }
 
 std::string to_text(const Metrics& m) {
@@ -272,6 +281,7 @@ std::string to_text(const Metrics& m) {
   if (m.truth) text += to_text(*m.truth);
   text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
   text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));
+  text += to_text(m.calibration);
   if (m.smoothed) text += to_text(*m.smoothed);
   return text;
 }

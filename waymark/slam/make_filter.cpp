@@ -16,6 +16,11 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.ekf.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
+  if (config.ekf.odometry.estimate &&
+      (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
+    return Error{
+        "ekf.calibrate_odometry: not with observe=pixel, nor with ekf.compressed=true: it moves the whole "
+        "map"};
   switch (config.observe) {
     case Observe::kRangeBearing:
     case Observe::kRange:

@@ -60,7 +60,10 @@ Motion Odometer::advance(Stamp stamp, const Event* next) {
   if (held_) motion = advance_held(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
-  if (!is_still(motion)) take_bias_out(motion.increment, to_seconds(stamp - *now_));
+  if (!is_still(motion)) {
+    motion.duration_s = to_seconds(stamp - *now_);
+    take_bias_out(motion.increment, motion.duration_s);
+  }
   now_ = stamp;
   return motion;
 }

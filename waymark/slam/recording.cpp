@@ -1,6 +1,8 @@
 #include "waymark/slam/recording.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -34,6 +36,24 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)
       lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
+  }
+  return lines;
+}
+
+/// What the motion of the run did not tell keeps its prior, and is no finding.
+std::vector<std::string> describe_untold(const Filter& filter, const OdometryStateOptions& options) {
+  constexpr double kTold = 0.9;
+  constexpr std::array kNames{"motion.speed_scale", "motion.turn_scale", "turning rate"};
+  std::vector<std::string> lines;
+  const auto odometry = filter.odometry_errors();
+  if (!odometry) return lines;
+  for (int i = 0; i < 3; ++i) {
+    const double sigma = std::sqrt(odometry->covariance(i, i));
+    if (sigma > kTold * options.sigmas()[i])
+      lines.push_back(
+          fmt::format("the run says nothing of the odometry's {}: what calibration.yaml has is "
+                      "what was assumed",
+                      kNames[static_cast<std::size_t>(i)]));
   }
   return lines;
 }
@@ -169,6 +189,8 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.notes = source.notes();
   if (front_end) finish_pictures(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
+  std::ranges::move(describe_untold(*recording.filter, config.ekf.odometry),
+                    std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;
 }
