@@ -301,11 +301,10 @@ Eigen::Vector2d State::proposed_expected(const ErrorTerms& terms) const {
 
 Eigen::Vector2d State::explained(const Sighting& sighting) const {
   Eigen::Vector2d sum = sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
-                        sighting.H_landmark * point(dx_, sighting.landmark) +
-                        error_part(sighting.errors, dx_);
+                        sighting.H_landmark * point(dx_, sighting.landmark);
   if (sighting.anchor >= 0) sum += sighting.H_anchor * point(dx_, sighting.anchor);
   if (sighting.second_anchor >= 0) sum += sighting.H_second_anchor * point(dx_, sighting.second_anchor);
-  return sum;
+  return sum + error_part(sighting.errors, dx_);
 }
 
 /// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
