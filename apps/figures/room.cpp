@@ -34,7 +34,7 @@ struct Run {
 
 Run drive(const Request& request, int seed) {
   std::vector<std::string> settings = request.settings;
-  settings.push_back("observe=pixel");
+  settings.emplace_back("observe=pixel");
   settings.push_back(fmt::format("seed={}", seed));
   const auto result = run_log("sim:" + request.scenario, {{}, std::move(settings)});
   if (!result || !result->evaluation) return {};

@@ -234,8 +234,8 @@ std::span<const Expectation> PixelSlam::expect() {
 
 /// Where a feature is; a ray that leads behind infinity as far away as points may be.
 Eigen::Vector3d PixelSlam::place(const ekf::PixelMap::Feature& feature) const {
+  if (feature.is_point()) return map_.state().landmark(feature.element);
   const Eigen::Vector3d values = map_.state().landmark(feature.element);
-  if (feature.is_point()) return values;
   const double least_rho = 1.0 / options_.depth.farthest_m;
   return point_of_ray(camera_.pose(map_.anchor_pose(feature.anchor)),
                       {values[0], values[1], std::max(values[2], least_rho)})

@@ -29,7 +29,7 @@ struct Plan {
   int repetitions;  ///< of a kernel in a round
 };
 
-Plan plan_of(BenchScope scope) { return scope == BenchScope::kQuick ? Plan{4.0, 3, 10} : Plan{40.0, 7, 50}; }
+Plan plan_of(BenchScope scope) { return scope == BenchScope::kQuick ? Plan{4.0, 3, 10} : Plan{24.0, 7, 50}; }
 
 /// A drive held in memory, pictures and all.
 struct Drive {
