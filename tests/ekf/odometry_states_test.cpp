@@ -44,11 +44,11 @@ TEST(OdometryStates, LearnsAllThreeErrorsWithinWhatItSaysOfThem) {
       filter.predict(reported(world.move(), errors, 0.1));
       filter.correct(world.look());
     }
-    const auto learnt = filter.odometry_errors();
-    ASSERT_TRUE(learnt && learnt->is_valid());
-    const Eigen::Vector3d error = learnt->mean - errors;
-    d2 += error.cwiseAbs2().cwiseQuotient(learnt->covariance.diagonal()) / kRuns;
-    EXPECT_LT(std::sqrt(learnt->covariance(0, 0)), 0.05);
+    const auto learnt = filter.calibration();
+    ASSERT_TRUE(learnt);
+    const Eigen::Vector3d error = learnt->mean.head<3>() - errors;
+    d2 += error.cwiseQuotient(learnt->sigmas.head<3>()).cwiseAbs2() / kRuns;
+    EXPECT_LT(learnt->sigmas[kSpeedScale], 0.05);
   }
   // On one circle turn scale and rate cannot be told apart: each stays within its prior. 99.9 % band of a
   // mean of 30 chi-square variables of one degree of freedom.
@@ -64,15 +64,18 @@ TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
     filter.predict({});
     filter.correct(world.look());
   }
-  const auto learnt = filter.odometry_errors();
+  const auto learnt = filter.calibration();
+  ASSERT_TRUE(learnt);
   const Eigen::Vector3d prior = calibrating().odometry.sigmas();
-  EXPECT_TRUE(matrix_near(learnt->mean, Eigen::Vector3d::Zero(), 1e-15));
-  EXPECT_TRUE(matrix_near(learnt->covariance, Eigen::Matrix3d(prior.cwiseAbs2().asDiagonal()), 1e-12));
+  EXPECT_TRUE(matrix_near(learnt->mean.head<3>(), Eigen::Vector3d::Zero(), 1e-15));
+  EXPECT_TRUE(matrix_near(learnt->sigmas.head<3>(), prior, 1e-12));
+  for (const CalibrationIndex index : {kSpeedScale, kTurnScale, kTurnBias})
+    EXPECT_TRUE(learnt->is_untold(index));
 }
 
 TEST(OdometryStates, AreOffUnlessAskedFor) {
   CircleWorld world(1);
-  EXPECT_FALSE(EkfSlam({}, {}, world.mount()).odometry_errors());
+  EXPECT_FALSE(EkfSlam({}, {}, world.mount()).calibration());
 }
 
 /// The covariance after a motion that depends on lasting errors is F P F^T + G Q G^T of the whole state, by

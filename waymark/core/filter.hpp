@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "waymark/core/gaussian.hpp"
+#include "waymark/core/calibration.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
@@ -70,9 +70,8 @@ class Filter {
   /// Where the time went, block by block.
   [[nodiscard]] virtual const FunctionBlocks& blocks() const = 0;
 
-  /// By how much the odometry errs always, where the filter estimates that: speed scale, turn scale (true is
-  /// 1 + these times measured) and turning rate, rad/s.
-  [[nodiscard]] virtual std::optional<Gaussian<3>> odometry_errors() const { return std::nullopt; }
+  /// What is always wrong with the sensors, where the filter estimates any of it.
+  [[nodiscard]] virtual std::optional<CalibrationEstimate> calibration() const { return std::nullopt; }
 };
 
 }  // namespace waymark

@@ -439,6 +439,15 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   if (unnamed_) note_sigma(landmark);
 }
 
+std::optional<CalibrationEstimate> EkfSlam::calibration() const {
+  const CalibrationEstimate odometry = odometry_.calibration(state_);
+  const CalibrationEstimate sensor = errors_.calibration(state_);
+  const CalibrationEstimate both{odometry.mean + sensor.mean, odometry.sigmas + sensor.sigmas,
+                                 odometry.prior_sigmas + sensor.prior_sigmas};
+  if (both.sigmas.isZero(0.0)) return std::nullopt;
+  return both;
+}
+
 Snapshot EkfSlam::snapshot() const {
   Snapshot snapshot{{}, state_.pose(), {}};
   for (int i = 0; i < state_.landmarks(); ++i) {

@@ -91,9 +91,7 @@ class EkfSlam final : public Filter {
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
-  [[nodiscard]] std::optional<Gaussian<3>> odometry_errors() const override {
-    return odometry_.estimate(state_);
-  }
+  [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
   /// How often the robot must have slipped far beyond its odometry: see correct().

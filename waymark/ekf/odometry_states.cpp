@@ -47,15 +47,18 @@ void OdometryStates::predict(CompressedState& state, const Motion& motion) const
   state.predict({step.increment, motion.covariance, motion.duration_s}, terms);
 }
 
-std::optional<Gaussian<3>> OdometryStates::estimate(const CompressedState& state) const {
-  if (!options_.estimate) return std::nullopt;
-  const OdometryErrors sigmas = options_.sigmas();
-  Eigen::Matrix3d P;
-  P.topLeftCorner<2, 2>() = state.errors_covariance(first_pair_, first_pair_);
-  P.topRightCorner<2, 1>() = state.errors_covariance(first_pair_, first_pair_ + 1).col(0);
-  P.bottomLeftCorner<1, 2>() = P.topRightCorner<2, 1>().transpose();
-  P(2, 2) = state.errors_covariance(first_pair_ + 1, first_pair_ + 1)(0, 0);
-  return Gaussian<3>{mean(state), sigmas.asDiagonal() * P * sigmas.asDiagonal()};
+CalibrationEstimate OdometryStates::calibration(const CompressedState& state) const {
+  CalibrationEstimate estimate;
+  if (!options_.estimate) return estimate;
+  static_assert(kSpeedScale == 0 && kTurnScale == 1 && kTurnBias == 2);
+  const OdometryErrors prior_sigmas = options_.sigmas();
+  const Eigen::Vector2d scales = state.errors_covariance(first_pair_, first_pair_).diagonal();
+  const double rate = state.errors_covariance(first_pair_ + 1, first_pair_ + 1)(0, 0);
+  estimate.mean.head<3>() = mean(state);
+  estimate.prior_sigmas.head<3>() = prior_sigmas;
+  estimate.sigmas.head<3>() =
+      prior_sigmas.cwiseProduct(OdometryErrors(scales[0], scales[1], rate).cwiseSqrt());
+  return estimate;
 }
 
 }  // namespace ekf

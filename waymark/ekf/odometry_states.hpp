@@ -1,7 +1,7 @@
 #pragma once
 
+#include "waymark/core/calibration.hpp"
 #include "waymark/core/config.hpp"
-#include "waymark/core/gaussian.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/ekf/compressed_state.hpp"
 #include "waymark/models/odometry_errors.hpp"
@@ -35,8 +35,7 @@ class OdometryStates {
   void start(CompressedState& state) const;
   /// Moves the robot as the estimate corrects the odometry.
   void predict(CompressedState& state, const Motion& motion) const;
-  /// Nothing where they are not estimated.
-  [[nodiscard]] std::optional<Gaussian<3>> estimate(const CompressedState& state) const;
+  [[nodiscard]] CalibrationEstimate calibration(const CompressedState& state) const;
 
  private:
   [[nodiscard]] OdometryErrors mean(const CompressedState& state) const;

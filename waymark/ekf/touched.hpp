@@ -17,7 +17,7 @@ struct ErrorTerm {
   [[nodiscard]] bool takes_part() const { return pair >= 0; }
 };
 /// At most so many at once.
-inline constexpr int kErrorTerms = 2;
+inline constexpr int kErrorTerms = 3;
 using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 
 /// Row of the state at which a pair of lasting errors begins: they come right after the robot.

@@ -117,7 +117,7 @@ Json smoothed_json(const SmoothedFigures& s) {
             {"poses", s.poses},
             {"sightings", s.sightings}};
   json["calibration"] = Json::object();
-  for (const auto& [key, value, sigma] : s.calibration) json["calibration"][key] = rounded(value);
+  for (const auto& each : s.calibration) json["calibration"][each.key] = rounded(each.value);
   json["live"] = distance_json(s.live);
   json["live"].erase("nees_median");
   if (s.truth && (s.truth->pairs > 0 || s.truth->map)) json["truth"] = distance_json(*s.truth);
@@ -173,8 +173,8 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.peak_rss_mb = peak_rss_mb();
   metrics.nis_per_dof = nis_per_dof(recording.innovations);
   metrics.truth = truth;
-  if (const auto odometry = recording.filter->odometry_errors())
-    metrics.calibration = calibrated_keys(smooth::calibration_of(*odometry), config);
+  if (const auto calibration = recording.filter->calibration())
+    metrics.calibration = smooth::calibrated_keys(*calibration, config);
   return metrics;
 }
 
@@ -201,8 +201,8 @@ std::string to_json(const Metrics& m) {
             {"peak_rss_mb", rounded(m.peak_rss_mb)}};
   put(json, "nis_per_dof", m.nis_per_dof);
   if (m.truth && (m.truth->pairs > 0 || m.truth->map)) json["truth"] = truth_json(*m.truth);
-  for (const auto& [key, value, sigma] : m.calibration)
-    json["calibration"][key] = {{"value", rounded(value)}, {"sigma", rounded(sigma)}};
+  for (const auto& each : m.calibration)
+    json["calibration"][each.key] = {{"value", rounded(each.value)}, {"sigma", rounded(each.sigma)}};
   if (m.smoothed) json["smoothed"] = smoothed_json(*m.smoothed);
   return json.dump(2) + "\n";
 }
@@ -221,7 +221,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
           smoothed.converged,
           smoothed.poses,
           smoothed.sightings,
-          calibrated_keys(smoothed.calibration, config),
+          smooth::calibrated_keys(smoothed.calibration, config),
           live,
           truth};
 }
@@ -257,8 +257,9 @@ std::string to_text(const eval::Evaluation& e) {
 
 static std::string to_text(const std::vector<smooth::CalibratedKey>& calibration) {
   std::string text;
-  for (const auto& [key, value, sigma] : calibration)
-    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}\n", key, value, sigma);
+  for (const auto& [key, value, sigma, is_untold] : calibration)
+    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}{}\n", key, value, sigma,
+                        is_untold ? "   (as assumed: the log says nothing of it)" : "");
   return text;
 }
 

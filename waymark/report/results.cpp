@@ -40,10 +40,9 @@ Result<void> write_smoothed(const RunResult& result, const std::filesystem::path
 
 /// What the whole log says, or else the filter.
 Result<void> write_calibration(const RunResult& result, const std::filesystem::path& folder) {
-  const auto odometry = result.recording.filter->odometry_errors();
-  if (!result.smoothed && !odometry) return {};
-  const smooth::CalibrationEstimate estimate =
-      result.smoothed ? result.smoothed->calibration : smooth::calibration_of(*odometry);
+  const auto live = result.recording.filter->calibration();
+  if (!result.smoothed && !live) return {};
+  const CalibrationEstimate& estimate = result.smoothed ? result.smoothed->calibration : *live;
   return write_file(folder / "calibration.yaml", smooth::calibration_yaml(estimate, result.config));
 }
 

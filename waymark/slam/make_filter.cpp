@@ -8,6 +8,13 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
   return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
 }
 
+/// Where nothing tells how large the world is, distances are what the odometry says.
+EkfOptions ekf_options(const Config& config) {
+  EkfOptions options = config.ekf;
+  if (!tells_size(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
+  return options;
+}
+
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
@@ -25,7 +32,7 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
     case Observe::kRangeBearing:
     case Observe::kRange:
     case Observe::kBearing:
-      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate,
+      return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(ekf_options(config), config.gate,
                                                                config.sensor.T_robot_sensor(), config.threads,
                                                                config.sensor.errors, unnamed(config)));
     case Observe::kPixel:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "waymark/core/angle.hpp"
+
 namespace waymark {
 namespace {
 
@@ -70,8 +72,8 @@ Motion Odometer::advance(Stamp stamp, const Event* next) {
 
 void Odometer::take_bias_out(Pose2& increment, double dt_s) {
   turn_bias_.look_at(increment, dt_s);
-  const double rate_radps = turn_bias_.rate_radps();
-  if (rate_radps != 0.0) increment = turned_more(increment, -rate_radps * dt_s, options_.arc);
+  const double missing_radps = to_radians(options_.turn_bias_degps) - turn_bias_.rate_radps();
+  if (missing_radps != 0.0) increment = turned_more(increment, missing_radps * dt_s, options_.arc);
 }
 
 Motion Odometer::advance_held(Stamp stamp) {

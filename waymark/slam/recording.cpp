@@ -1,8 +1,6 @@
 #include "waymark/slam/recording.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -40,22 +38,13 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   return lines;
 }
 
-/// What the motion of the run did not tell keeps its prior, and is no finding.
-std::vector<std::string> describe_untold(const Filter& filter, const OdometryStateOptions& options) {
-  constexpr double kTold = 0.9;
-  constexpr std::array kNames{"motion.speed_scale", "motion.turn_scale", "turning rate"};
-  std::vector<std::string> lines;
-  const auto odometry = filter.odometry_errors();
-  if (!odometry) return lines;
-  for (int i = 0; i < 3; ++i) {
-    const double sigma = std::sqrt(odometry->covariance(i, i));
-    if (sigma > kTold * options.sigmas()[i])
-      lines.push_back(
-          fmt::format("the run says nothing of the odometry's {}: what calibration.yaml has is "
-                      "what was assumed",
-                      kNames[static_cast<std::size_t>(i)]));
-  }
-  return lines;
+std::vector<std::string> describe_untold(const Config& config) {
+  if (!config.ekf.odometry.estimate || config.filter != FilterKind::kEkf ||
+      tells_size(config.observe, config.sensor.errors))
+    return {};
+  return {
+      "motion.speed_scale was not estimated: without ranges of known scale nothing tells a large world from "
+      "a small one"};
 }
 
 /// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
@@ -189,8 +178,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.notes = source.notes();
   if (front_end) finish_pictures(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
-  std::ranges::move(describe_untold(*recording.filter, config.ekf.odometry),
-                    std::back_inserter(recording.notes));
+  std::ranges::move(describe_untold(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;
 }

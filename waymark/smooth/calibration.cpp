@@ -3,10 +3,10 @@
 #include "waymark/models/odometry_errors.hpp"
 
 namespace waymark::smooth {
+
 Calibration calibration_sigmas(const SmoothOptions& options, const SensorErrors& errors, Observe observe) {
-  const bool trusts_ranges = observe != Observe::kBearing && !(errors.shared_range_sigma_ratio > 0.0);
   Calibration sigmas;
-  sigmas << (trusts_ranges ? options.speed_scale_sigma : 0.0), options.turn_scale_sigma,
+  sigmas << (tells_size(observe, errors) ? options.speed_scale_sigma : 0.0), options.turn_scale_sigma,
       to_radians(options.turn_bias_sigma_degps), errors.shared_range_sigma_ratio, errors.shared_range_sigma_m,
       to_radians(errors.shared_bearing_sigma_deg);
   return sigmas;

@@ -194,7 +194,8 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config) {
   Smoothed smoothed;
   smoothed.trajectory = Bender(recording, run, solution).path();
   smoothed.landmarks = map_of(run, solution);
-  smoothed.calibration = {solution.estimate.calibration, solution.calibration_sigmas};
+  smoothed.calibration = {solution.estimate.calibration, solution.calibration_sigmas,
+                          run.graph.calibration_sigmas};
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
   smoothed.poses = run.steps.size();
