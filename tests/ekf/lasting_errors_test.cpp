@@ -111,7 +111,7 @@ TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
 
 TEST(LastingErrors, ScaleAndOffsetOfRangesAndOffsetOfBearingsAreLearntWithinWhatItSaysOfThem) {
   constexpr double kScale = 0.015, kOffset_m = 0.05;
-  const double kBearing_rad = to_radians(0.8);
+  const double bearing_rad = to_radians(0.8);
   const SensorErrors sensor{
       .shared_range_sigma_ratio = 0.1, .shared_range_sigma_m = 0.1, .shared_bearing_sigma_deg = 1.0};
   constexpr int kRuns = 30;
@@ -124,14 +124,14 @@ TEST(LastingErrors, ScaleAndOffsetOfRangesAndOffsetOfBearingsAreLearntWithinWhat
       std::vector<Observation> scan = world.look();
       for (Observation& each : scan) {
         auto& z = std::get<RangeBearing>(each.value);
-        z = {(1.0 + kScale) * z.range_m + kOffset_m, wrap_angle(z.bearing_rad + kBearing_rad)};
+        z = {(1.0 + kScale) * z.range_m + kOffset_m, wrap_angle(z.bearing_rad + bearing_rad)};
       }
       filter.correct(scan);
     }
     const auto learnt = filter.calibration();
     ASSERT_TRUE(learnt);
     EXPECT_FALSE(learnt->is_estimated(kSpeedScale));
-    const Eigen::Vector3d error = learnt->mean.tail<3>() - Eigen::Vector3d(kScale, kOffset_m, kBearing_rad);
+    const Eigen::Vector3d error = learnt->mean.tail<3>() - Eigen::Vector3d(kScale, kOffset_m, bearing_rad);
     d2 += error.cwiseQuotient(learnt->sigmas.tail<3>()).cwiseAbs2() / kRuns;
     EXPECT_LT(learnt->sigmas[kRangeOffset], 0.1);
   }
