@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "support/data_dir.hpp"
+#include "support/spread_corners.hpp"
 #include "waymark/eval/median.hpp"
 #include "waymark/io/image_file.hpp"
-#include "waymark/vision/corners.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/subpixel.hpp"
 
@@ -35,21 +35,6 @@ GreyImage frame(int number) {
 }
 
 Eigen::Matrix2d isotropic(double sigma_px) { return sigma_px * sigma_px * Eigen::Matrix2d::Identity(); }
-
-/// The strongest FAST-12 corner of every 40 x 40 pixels.
-std::vector<Corner> spread_corners(const ImageView& image) {
-  constexpr int kCell_px = 40;
-  CornerDetector detector;
-  std::vector<Corner> chosen;
-  for (int v = 0; v < image.height_px; v += kCell_px) {
-    for (int u = 0; u < image.width_px; u += kCell_px) {
-      const auto& corners = detector.detect(image, {u, v, kCell_px, kCell_px});
-      const auto best = std::ranges::max_element(corners, {}, &Corner::score);
-      if (best != corners.end()) chosen.push_back(*best);
-    }
-  }
-  return chosen;
-}
 
 /// Where what is at a place of one picture is in another one, looked for around `predicted`.
 std::optional<Eigen::Vector2d> follow(const ImageView& from, const Eigen::Vector2d& place,
@@ -75,7 +60,7 @@ Followed follow_corners(const ImageView& first, const ImageView& second, const E
   constexpr double kSamePlace_px = 1.5;
   Followed followed;
   std::vector<double> du, dv;
-  for (const Corner& corner : spread_corners(first)) {
+  for (const Corner& corner : test::spread_corners(first)) {
     const Eigen::Vector2d place(corner.u, corner.v);
     const bool is_inside = place.minCoeff() > kMargin_px && place.x() < first.width_px - kMargin_px &&
                            place.y() < first.height_px - kMargin_px;

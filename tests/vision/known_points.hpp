@@ -22,6 +22,7 @@ class KnownPoints {
 
   void add(LandmarkId id, const Eigen::Vector3d& p_world_m) { points_[id] = p_world_m; }
   [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const Eigen::Vector3d& place(LandmarkId id) const { return points_.at(id); }
 
   [[nodiscard]] std::optional<Eigen::Vector2d> pixel(LandmarkId id, const Pose2& T_world_robot) const {
     const CameraPose pose = camera_.pose(T_world_robot);

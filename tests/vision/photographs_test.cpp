@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "support/spread_corners.hpp"
 #include "waymark/core/random.hpp"
 #include "waymark/io/files.hpp"
 #include "waymark/vision/search.hpp"
@@ -49,21 +50,6 @@ Eigen::Matrix3d read_matrix(const std::filesystem::path& path) {
   return H;
 }
 
-/// The strongest corner of each cell of 40 x 40 pixels.
-std::vector<Corner> spread_corners(const ImageView& image) {
-  constexpr int kCell_px = 40;
-  CornerDetector detector({.threshold = 20, .arc = 9});
-  std::vector<Corner> chosen;
-  for (int v = 0; v < image.height_px; v += kCell_px) {
-    for (int u = 0; u < image.width_px; u += kCell_px) {
-      const auto& corners = detector.detect(image, {u, v, kCell_px, kCell_px});
-      const auto best = std::ranges::max_element(corners, {}, &Corner::score);
-      if (best != corners.end()) chosen.push_back(*best);
-    }
-  }
-  return chosen;
-}
-
 struct Outcome {
   int searched = 0, accepted = 0, right = 0, accepted_right = 0;
 
@@ -76,7 +62,7 @@ Outcome match(const char* name, const GreyImage& first, const GreyImage& second,
   RandomStream random(1, StreamPurpose::kWorld);
   Search search(options);
   Outcome outcome;
-  for (const Corner& corner : spread_corners(first)) {
+  for (const Corner& corner : test::spread_corners(first, {.threshold = 20, .arc = 9})) {
     const TruePlace place = truth(Eigen::Vector2d(corner.u, corner.v));
     const auto reference = cut_reference(first, corner.u, corner.v);
     const bool visible = place.pixel.minCoeff() > 25.0 && place.pixel.x() < second.width_px() - 25.0 &&

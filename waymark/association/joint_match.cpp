@@ -7,13 +7,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "waymark/core/angle.hpp"
 #include "waymark/core/chi2.hpp"
+#include "waymark/core/gaussian.hpp"
 
 namespace waymark {
 namespace {
-
-const double kLogTurn = std::log(2.0 * kPi);
 
 constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
@@ -82,14 +80,14 @@ double JointMatch::score_alone(int pair) {
   const JointPair& p = pairs_[index(pair)];
   const Eigen::LLT<Eigen::Matrix2d> llt(common(index(pair), index(pair)) + p.R);
   const double log_det = 2.0 * (std::log(llt.matrixLLT()(0, 0)) + std::log(llt.matrixLLT()(1, 1)));
-  const double score = p.bonus - 0.5 * (p.nu.dot(llt.solve(p.nu)) + log_det) - kLogTurn;
+  const double score = p.bonus - 0.5 * (p.nu.dot(llt.solve(p.nu)) + log_det) - kLogTwoPi;
   return std::isfinite(score) ? score : -HUGE_VAL;
 }
 
 /// What a pair brings where its innovation is zero and its noise all that is unknown: S >= R.
 double JointMatch::most_of(int pair) const {
   const JointPair& p = pairs_[index(pair)];
-  const double most = p.bonus - 0.5 * std::log(p.R.determinant()) - kLogTurn;
+  const double most = p.bonus - 0.5 * std::log(p.R.determinant()) - kLogTwoPi;
   return std::isfinite(most) ? most : HUGE_VAL;
 }
 
@@ -146,7 +144,7 @@ bool JointMatch::choose(int pair) {
   step.d2 = (before != nullptr ? before->d2 : 0.0) + step.y.squaredNorm();
   if (!(step.d2 <= gates_[k + 1])) return false;
   step.score = (before != nullptr ? before->score : 0.0) + p.bonus - 0.5 * step.y.squaredNorm() -
-               std::log(step.L(0, 0) * step.L(1, 1)) - kLogTurn;
+               std::log(step.L(0, 0) * step.L(1, 1)) - kLogTwoPi;
   chosen_.push_back(pair);
   return true;
 }

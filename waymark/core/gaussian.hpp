@@ -7,6 +7,9 @@
 
 namespace waymark {
 
+/// log(2 pi): the constant in the logarithm of a Gaussian's density, halved per dimension.
+inline constexpr double kLogTwoPi = 1.8378770664093453;
+
 /// Finite, symmetric to 1e-9 of its largest entry, and no eigenvalue below -1e-9 of the largest one.
 /// O(n^3): for inputs and tests, not for the hot loop.
 [[nodiscard]] bool is_covariance(const Eigen::Ref<const Eigen::MatrixXd>& P);

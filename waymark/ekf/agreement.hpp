@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "waymark/ekf/state.hpp"
+
 namespace waymark::ekf {
 
 /// Which of the pixel sightings of one picture agree with each other: 1-point RANSAC (Civera, Grasa, Davison,
@@ -18,9 +20,7 @@ namespace waymark::ekf {
 /// Zisserman 2000): a wrong place that others share must still be paid for.
 class Agreement {
  public:
-  using JointCovariance =
-      Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
-                 Eigen::OuterStride<>>;
+  using JointCovariance = State::JointCovariance;
 
   /// Room for so many sightings.
   explicit Agreement(std::size_t capacity) : best_(capacity), tried_(capacity) {}

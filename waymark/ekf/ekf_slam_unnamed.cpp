@@ -25,7 +25,6 @@ constexpr double kMergeMargin = 3.0;
 constexpr double kFarthestTwin_m = 10.0;
 // Variance of the difference of a landmark and itself: as good as none, but S stays well conditioned.
 constexpr double kSameVariance_m2 = 1e-6;
-const double kLogTurn = std::log(2.0 * kPi);
 
 constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
@@ -177,7 +176,7 @@ void EkfSlam::match_exclusively(std::span<const Observation> observations) {
   unnamed_->exclusive.clear();
   for (const Candidate& c : unnamed_->candidates)
     unnamed_->exclusive.add({c.observation, c.sighting.landmark,
-                             -0.5 * c.cost - kLogTurn + bonus(c, observations[index(c.observation)])});
+                             -0.5 * c.cost - kLogTwoPi + bonus(c, observations[index(c.observation)])});
   unnamed_->exclusive.solve(static_cast<int>(observations.size()), state_.landmarks(), 0.0);
   for (const Candidate& c : unnamed_->candidates)
     if (unnamed_->exclusive.landmark_of(c.observation) == c.sighting.landmark) take_match(c);
@@ -261,7 +260,7 @@ void EkfSlam::find_duplicates(int landmark, Duplicate& best) {
         const Eigen::Matrix2d S = state_.common_covariance(apart, apart) + apart.R;
         const auto d2 = mahalanobis_squared<2>(apart.nu, S);
         if (!d2 || *d2 > gate_.threshold(2)) return;
-        const double score = -0.5 * cost_of(*d2, S) - kLogTurn - log_others - kMergeMargin;
+        const double score = -0.5 * cost_of(*d2, S) - kLogTwoPi - log_others - kMergeMargin;
         if (score > best.score) best = {score, landmark, twin};
       });
 }

@@ -252,9 +252,8 @@ double PixelSlam::wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vect
 /// A patch is no point. Warped as a plane that faces the camera it fits best a little beside where it was
 /// cut, and the more so the more the view has turned. Pictures from nearly the same place are off by the
 /// same: an error of the landmark, not of the pixel.
-void PixelSlam::let_wander(int index, const CameraPose& here) {
+void PixelSlam::let_wander(int index, const Eigen::Vector3d& p_world, const CameraPose& here) {
   ekf::PixelMap::Feature& feature = map_.feature(index);
-  const Eigen::Vector3d p_world = place(feature);
   const Eigen::Vector3d view = p_world - here.p_world_camera;
   const double metres_per_px = view.norm() / camera_.options().fu_px;
   const double variance_m2 =
@@ -273,14 +272,15 @@ void PixelSlam::expect_feature(int index, const CameraPose& here) {
   auto seen = sight(index, here);
   const ekf::PixelMap::Feature& feature = map_.feature(index);
   if (!seen || !is_in_view(feature, here, seen->predicted)) return;
-  let_wander(index, here);
+  const Eigen::Vector3d p_world = place(feature);
+  let_wander(index, p_world, here);
   seen->sighting.R = model_noise() + kRounding * Eigen::Matrix2d::Identity();
   Expectation expected;
   expected.id = feature.id;
   expected.predicted_px = seen->predicted;
   expected.S = map_.state().innovation_covariance(seen->sighting);
   if (!(expected.S.determinant() > 0.0)) return;
-  expected.p_world_m = place(feature);
+  expected.p_world_m = p_world;
   expected.information_nats = 0.5 * std::log(expected.S.determinant() / seen->sighting.R.determinant());
   expectations_.push_back(expected);
 }
@@ -398,9 +398,10 @@ void PixelSlam::update(std::span<const Observation> observations) {
     nus_.clear();
     seen_.clear();
     told_.clear();
+    const CameraPose here = camera_pose();
     for (; next < observations.size() && sightings_.size() < ekf::State::kMaxSightings; ++next)
       if (innovations_[next].outcome == Outcome::kMatched && map_.find(innovations_[next].landmark))
-        collect(next, observations[next]);
+        collect(next, observations[next], here);
     if (sightings_.empty()) continue;
     if (map_.state().updates_by_textbook()) {
       update_gated(observations);
@@ -413,35 +414,37 @@ void PixelSlam::update(std::span<const Observation> observations) {
 }
 
 /// Linearises one sighting at the present estimate.
-void PixelSlam::collect(std::size_t index, const Observation& observation) {
+void PixelSlam::collect(std::size_t index, const Observation& observation, const CameraPose& here) {
   Innovation& innovation = innovations_[index];
-  if (!settle(index, observation)) {
+  const auto S = settle(index, observation, here);
+  if (!S) {
     innovation.outcome = Outcome::kUnusable;
     return;
   }
   const ekf::State& state = map_.state();
   const ekf::Sighting& sighting = sightings_.back();
-  told_.push_back({state.pose().covariance, state.pose_correlation(sighting),
-                   state.innovation_covariance(sighting), sighting.H_pose});
+  told_.push_back({state.pose().covariance, state.pose_correlation(sighting), *S, sighting.H_pose});
 }
 
-/// Appends a sighting to those of the block and notes its NIS.
-bool PixelSlam::settle(std::size_t index, const Observation& observation) {
+/// Appends a sighting to those of the block and notes its NIS. Its S, or nothing where it cannot be used.
+std::optional<Eigen::Matrix2d> PixelSlam::settle(std::size_t index, const Observation& observation,
+                                                 const CameraPose& here) {
   Innovation& innovation = innovations_[index];
-  auto seen = sight(*map_.find(innovation.landmark), camera_pose());
-  if (!seen) return false;
+  auto seen = sight(*map_.find(innovation.landmark), here);
+  if (!seen) return std::nullopt;
   ekf::Sighting& sighting = seen->sighting;
   sighting.R = noise(observation);
   sighting.nu = pixel_of(observation) - seen->predicted - map_.state().expected(sighting.errors);
-  const auto nis = mahalanobis_squared<2>(sighting.nu, map_.state().innovation_covariance(sighting));
-  if (!nis) return false;
+  const Eigen::Matrix2d S = map_.state().innovation_covariance(sighting);
+  const auto nis = mahalanobis_squared<2>(sighting.nu, S);
+  if (!nis) return std::nullopt;
   innovation.dof = 2;
   innovation.nis = *nis;
   innovation.gate = gate_;
   sightings_.push_back(sighting);
   nus_.push_back(sighting.nu);
   seen_.push_back(index);
-  return true;
+  return S;
 }
 
 /// Those of the block that do not agree are left as gated. A landmark that may still be anywhere when another
@@ -449,7 +452,7 @@ bool PixelSlam::settle(std::size_t index, const Observation& observation) {
 void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   const auto S = map_.state().joint_innovation_covariance(sightings_);
   const auto agrees = agreement_.best(S, nus_, gate_, agreement_gate_);
-  const bool is_convincing = this->is_convincing(agrees);
+  const bool convincing = is_convincing(S, agrees);
   const auto returns = [&](std::size_t k) {
     return agrees[k] != 0 && k != agreement_.hypothesis() &&
            ekf::Agreement::left_of(S, k, agreement_.hypothesis()).trace() > kFar_px * kFar_px;
@@ -458,7 +461,7 @@ void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   for (std::size_t k = 0; k < seen_.size(); ++k) returning += returns(k);
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     Outcome& outcome = innovations_[seen_[k]].outcome;
-    if (!is_convincing || agrees[k] == 0)
+    if (!convincing || agrees[k] == 0)
       outcome = Outcome::kGated;
     else if (returns(k) && returning < kWitnesses)
       outcome = Outcome::kUnusable;
@@ -489,11 +492,11 @@ void PixelSlam::update_matched(std::span<const Observation> observations) {
 
 /// What looks right in the wrong place agrees with hardly anything: most of the block must agree, and several
 /// where the search was so wide that something that looks right is easily found.
-bool PixelSlam::is_convincing(std::span<const char> agrees) const {
+bool PixelSlam::is_convincing(const ekf::State::JointCovariance& S, std::span<const char> agrees) {
   const auto count = static_cast<std::size_t>(std::ranges::count_if(agrees, [](char a) { return a != 0; }));
-  const bool is_wide = std::ranges::any_of(sightings_, [this](const ekf::Sighting& sighting) {
-    return map_.state().innovation_covariance(sighting).trace() > kWide_px * kWide_px;
-  });
+  bool is_wide = false;
+  for (Eigen::Index row = 0; row + 1 < S.rows(); row += 2)
+    is_wide |= S(row, row) + S(row + 1, row + 1) > kWide_px * kWide_px;
   return count >= (is_wide ? 3U : 1U) && (count >= 3 || 2 * count > agrees.size());
 }
 
@@ -539,6 +542,7 @@ bool PixelSlam::relinearize(std::span<const Observation> observations) {
 
 /// High-innovation inliers: what did not agree, but fits where the others have led.
 void PixelSlam::rescue(std::span<const Observation> observations) {
+  const CameraPose here = camera_pose();
   const std::size_t count = seen_.size();
   sightings_.clear();
   nus_.clear();
@@ -548,7 +552,7 @@ void PixelSlam::rescue(std::span<const Observation> observations) {
     Innovation& innovation = innovations_[index];
     if (innovation.outcome != Outcome::kGated) continue;
     const double nis_before = innovation.nis;
-    if (!settle(index, observations[index])) continue;
+    if (!settle(index, observations[index], here)) continue;
     seen_.pop_back();
     if (innovation.nis <= gate_) {
       innovation.outcome = Outcome::kMatched;
@@ -636,7 +640,7 @@ void PixelSlam::accept(Candidate& candidate, std::size_t index, std::span<const 
     const double unsure = as_point ? sigma : std::min(kWidening * sigma, unknown_depth().sigma);
     const int feature = add_ray(candidate.id, anchor, {candidate.xy.x(), candidate.xy.y(), rho},
                                 ray_covariance(candidate.xy_covariance, unsure), {}, candidate.matches + 1);
-    let_wander(feature, camera_pose());
+    let_wander(feature, place(map_.feature(feature)), camera_pose());
     if (as_point)
       map_.make_point(feature, camera_);
     else
@@ -663,7 +667,7 @@ void PixelSlam::confirm(std::size_t index, std::span<const Observation> observat
   nus_.clear();
   seen_.clear();
   used_.assign(1, index);
-  if (settle(index, observations[index])) static_cast<void>(apply(observations));
+  if (settle(index, observations[index], camera_pose())) static_cast<void>(apply(observations));
 }
 
 /// A pixel that nobody knows: a candidate, or at once a ray.

@@ -115,7 +115,7 @@ class PixelSlam final : public Filter {
   [[nodiscard]] Eigen::Vector3d place(const ekf::PixelMap::Feature& feature) const;
   [[nodiscard]] double wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
                                     const Eigen::Vector3d& to) const;
-  void let_wander(int index, const CameraPose& here);
+  void let_wander(int index, const Eigen::Vector3d& p_world, const CameraPose& here);
   void expect_feature(int index, const CameraPose& here);
   void expect_candidate(const Candidate& candidate);
 
@@ -125,10 +125,11 @@ class PixelSlam final : public Filter {
 
   void sort_out(std::size_t index, const Observation& observation);
   void update(std::span<const Observation> observations);
-  void collect(std::size_t index, const Observation& observation);
-  [[nodiscard]] bool settle(std::size_t index, const Observation& observation);
+  void collect(std::size_t index, const Observation& observation, const CameraPose& here);
+  [[nodiscard]] std::optional<Eigen::Matrix2d> settle(std::size_t index, const Observation& observation,
+                                                      const CameraPose& here);
   void update_agreeing(std::span<const Observation> observations);
-  [[nodiscard]] bool is_convincing(std::span<const char> agrees) const;
+  [[nodiscard]] static bool is_convincing(const ekf::State::JointCovariance& S, std::span<const char> agrees);
   void update_gated(std::span<const Observation> observations);
   void update_matched(std::span<const Observation> observations);
   [[nodiscard]] bool apply(std::span<const Observation> observations);

@@ -343,9 +343,7 @@ std::size_t State::project(std::span<const Sighting> sightings) {
   return row;
 }
 
-Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
-           Eigen::OuterStride<>>
-State::joint_innovation_covariance(std::span<const Sighting> sightings) {
+State::JointCovariance State::joint_innovation_covariance(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   join_robot_rows();
   const auto rows = static_cast<int>(project(sightings));

@@ -167,11 +167,14 @@ class State {
   /// Makes a landmark less sure by itself: adds to its own covariance. O(1).
   void loosen(int index, const Eigen::Matrix3d& covariance);
 
+  /// Its lower triangle counts.
+  using JointCovariance =
+      Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
+                 Eigen::OuterStride<>>;
+
   /// S of all these sightings together, lower triangle, and its size: for those who ask which of them agree.
   /// Drops what was proposed. A view, good until the next call that changes or proposes anything.
-  [[nodiscard]] Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
-                           Eigen::OuterStride<>>
-  joint_innovation_covariance(std::span<const Sighting> sightings);
+  [[nodiscard]] JointCovariance joint_innovation_covariance(std::span<const Sighting> sightings);
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);

@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "waymark/core/angle.hpp"
+#include "waymark/core/gaussian.hpp"
 
 namespace waymark::fastslam {
 namespace {
@@ -15,11 +15,10 @@ namespace {
 constexpr double kCell_m = 2.0;
 // So many choices a particle can tell apart in bits.
 constexpr std::size_t kMostChoices = 32;
-const double kLogTurn = std::log(2.0 * kPi);
 
 double log_density(const InnovationMoments& moments) {
   const Eigen::Matrix2d S = moments.covariance();
-  return -0.5 * (moments.mean.dot(S.inverse() * moments.mean) + std::log(S.determinant())) - kLogTurn;
+  return -0.5 * (moments.mean.dot(S.inverse() * moments.mean) + std::log(S.determinant())) - kLogTwoPi;
 }
 
 }  // namespace
@@ -97,7 +96,7 @@ void Association::choose(const LandmarkStore& store, std::size_t particle) {
 }
 
 double Association::log_weight(const Choice& choice) {
-  return choice.landmark != ExclusiveMatch::kNothing ? choice.log_odds : choice.log_others + kLogTurn;
+  return choice.landmark != ExclusiveMatch::kNothing ? choice.log_odds : choice.log_others + kLogTwoPi;
 }
 
 float Association::after_sighting(float log_odds) const {

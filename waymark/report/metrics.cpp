@@ -67,12 +67,17 @@ Json procrustes_json(const eval::ProcrustesScore& score) {
   return json;
 }
 
+Json path_json(const eval::PathScore& path) {
+  Json json = Json::object();
+  put(json, "position_rmse_m", path.position_rmse_m);
+  put(json, "position_rmse_aligned_m", path.position_rmse_aligned_m);
+  put(json, "heading_rmse_deg", path.heading_rmse_deg);
+  put(json, "final_error_m", path.final_error_m);
+  return json;
+}
+
 Json truth_json(const eval::Evaluation& e) {
-  Json truth = Json::object();
-  put(truth, "position_rmse_m", e.path.position_rmse_m);
-  put(truth, "position_rmse_aligned_m", e.path.position_rmse_aligned_m);
-  put(truth, "heading_rmse_deg", e.path.heading_rmse_deg);
-  put(truth, "final_error_m", e.path.final_error_m);
+  Json truth = path_json(e.path);
   if (e.map) {
     put(truth, "landmark_rmse_m", e.map->rmse_m);
     put(truth, "landmark_rmse_anchored_m", e.map->rmse_anchored_m);
@@ -97,11 +102,7 @@ Json truth_json(const eval::Evaluation& e) {
 
 /// What of a score says how far two paths and maps are apart.
 Json distance_json(const eval::Evaluation& e) {
-  Json json = Json::object();
-  put(json, "position_rmse_m", e.path.position_rmse_m);
-  put(json, "position_rmse_aligned_m", e.path.position_rmse_aligned_m);
-  put(json, "heading_rmse_deg", e.path.heading_rmse_deg);
-  put(json, "final_error_m", e.path.final_error_m);
+  Json json = path_json(e.path);
   if (e.map) {
     put(json, "landmark_rmse_m", e.map->rmse_m);
     put(json, "landmark_rmse_self_m", e.map->rmse_self_m);
