@@ -106,7 +106,8 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run LOG --from 600 --map out/map.waymark -o out2\n"
       "  waymark run LOG2 --map out/map.waymark --localize -o out3\n\n"
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
-      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too.");
+      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too; "
+      "that also with --set ekf.calibrate_odometry=true.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr Outcome kOutcomes[] = {Outcome::kMatched,      Outcome::kAdded,    Outcome::kGated,
                                  Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous,
-                                 Outcome::kDuplicate,    Outcome::kMapFull,  Outcome::kNotInMap};
+                                 Outcome::kDuplicate,    Outcome::kPending,  Outcome::kMapFull,
+                                 Outcome::kNotInMap};
 
 TEST(Correction, CountsInnovationsByOutcome) {
   std::vector<Innovation> innovations;

@@ -74,7 +74,7 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   std::vector<Observation> scan(6, world.sight(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
   scan[1].id.reset();
-  scan[2].value = Bearing{0.1};
+  scan[2].value = Pixel{1.0, 2.0};
   scan[3].covariance.reset();
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
   scan.push_back(world.sight(0));

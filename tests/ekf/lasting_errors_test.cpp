@@ -1,14 +1,19 @@
 #include "waymark/ekf/lasting_errors.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
 #include "waymark/core/angle.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
 
 namespace waymark::ekf {
 namespace {
+
+using test::CircleWorld;
 
 SensorErrors example() {
   return {.shared_range_sigma_ratio = 0.02,
@@ -102,6 +107,37 @@ TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
   f.errors.sight(f.state, marker(remembered));
   EXPECT_TRUE(f.errors.of(marker(remembered), 2.0).terms[1].takes_part())
       << "takes over from one that is not in view";
+}
+
+TEST(LastingErrors, ScaleAndOffsetOfRangesAndOffsetOfBearingsAreLearntWithinWhatItSaysOfThem) {
+  constexpr double kScale = 0.015, kOffset_m = 0.05;
+  const double bearing_rad = to_radians(0.8);
+  const SensorErrors sensor{
+      .shared_range_sigma_ratio = 0.1, .shared_range_sigma_m = 0.1, .shared_bearing_sigma_deg = 1.0};
+  constexpr int kRuns = 30;
+  Eigen::Vector3d d2 = Eigen::Vector3d::Zero();
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    EkfSlam filter({.capacity = 20}, {}, world.mount(), 1, sensor);
+    for (int i = 0; i < 300; ++i) {
+      filter.predict(world.move());
+      std::vector<Observation> scan = world.look();
+      for (Observation& each : scan) {
+        auto& z = std::get<RangeBearing>(each.value);
+        z = {(1.0 + kScale) * z.range_m + kOffset_m, wrap_angle(z.bearing_rad + bearing_rad)};
+      }
+      filter.correct(scan);
+    }
+    const auto learnt = filter.calibration();
+    ASSERT_TRUE(learnt);
+    EXPECT_FALSE(learnt->is_estimated(kSpeedScale));
+    const Eigen::Vector3d error = learnt->mean.tail<3>() - Eigen::Vector3d(kScale, kOffset_m, bearing_rad);
+    d2 += error.cwiseQuotient(learnt->sigmas.tail<3>()).cwiseAbs2() / kRuns;
+    EXPECT_LT(learnt->sigmas[kRangeOffset], 0.1);
+  }
+  // 99.9 % band of a mean of 30 chi-square variables of one degree of freedom.
+  EXPECT_LT(d2.maxCoeff(), 2.1) << d2.transpose();
+  EXPECT_GT(d2.minCoeff(), 0.35);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "waymark/ekf/pixel_slam.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 #include <span>
 #include <vector>
@@ -51,14 +51,17 @@ struct Drive {
   /// Keeps the account of a front end: what was taken, and is not gone.
   void note(const Correction& correction) {
     for (const Innovation& innovation : correction.innovations) {
-      ++outcomes[static_cast<std::size_t>(innovation.outcome)];
+      ++outcomes[innovation.outcome];
       if (innovation.outcome == Outcome::kAdded) known.insert(innovation.landmark);
     }
     gone = {correction.removed.begin(), correction.removed.end()};
     for (const LandmarkId id : gone) known.erase(id);
   }
 
-  [[nodiscard]] int count(Outcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
+  [[nodiscard]] int count(Outcome outcome) const {
+    const auto found = outcomes.find(outcome);
+    return found == outcomes.end() ? 0 : found->second;
+  }
   [[nodiscard]] Pose2 truth() const { return start.inverse() * room.truth(); }
   [[nodiscard]] Eigen::Vector3d truth(LandmarkId id) const {
     const Eigen::Vector3d p = room.point(id.number);
@@ -79,7 +82,7 @@ struct Drive {
   std::vector<Observation> seen;
   std::vector<LandmarkId> missed;
   std::set<LandmarkId> known, gone;
-  std::array<int, static_cast<std::size_t>(Outcome::kNotInMap) + 1> outcomes{};
+  std::map<Outcome, int> outcomes;
 };
 
 /// Mean over a lap.

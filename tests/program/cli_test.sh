@@ -41,7 +41,7 @@ refuses 2 'range-bearing, range, bearing or pixel' run sim:square -o o --filter 
 refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
-refuses 2 'observe' run sim:square -o o --observe bearing
+refuses 2 'need identities' run sim:forest -o o --observe bearing
 refuses 2 'known, nearest, jcbb or ml' run sim:forest -o o --associate guess
 refuses 2 'the EKF takes known, nearest or jcbb' run sim:forest -o o --associate ml
 refuses 2 'FastSLAM takes known or ml' run sim:forest -o o --filter fastslam --associate jcbb

@@ -36,6 +36,19 @@ TEST(Odometer, HoldsTheLastVelocity) {
   EXPECT_NEAR(odometer.advance(at(3.0), nullptr).increment.x_m, 1.0, 1e-12);
 }
 
+TEST(Odometer, AddsTheTurningThatIsMissingWhileItMoves) {
+  OdometryOptions options;
+  options.turn_bias_degps = 2.0;
+  Odometer odometer(options, 10.0);
+  (void)odometer.advance(at(1.0), nullptr);
+  odometer.add({at(1.0), Velocity{0.5, to_radians(1.0)}});
+  const Motion motion = odometer.advance(at(3.0), nullptr);
+  EXPECT_NEAR(motion.increment.theta_rad, to_radians(6.0), 1e-12);
+  EXPECT_EQ(motion.duration_s, 2.0);
+  odometer.add({at(3.0), Velocity{0.0, 0.0}});
+  EXPECT_TRUE(is_still(odometer.advance(at(5.0), nullptr)));
+}
+
 TEST(Odometer, HoldsTheLastSpeedAndSteeringAngle) {
   OdometryOptions options;
   options.car = {2.0, 0.5};

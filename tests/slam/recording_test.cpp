@@ -282,9 +282,9 @@ TEST(Recording, DamagedPicturesOfEveryKindAreSkippedAndNamed) {
 }
 
 TEST(MakeFilter, RefusesAModeThatTheFilterDoesNotHave) {
-  const auto run = record_study({"observe=bearing"});
+  const auto run = record_study({"associate=ml"});
   ASSERT_FALSE(run.ok());
-  EXPECT_NE(run.error().message.find("observe"), std::string::npos);
+  EXPECT_NE(run.error().message.find("associate"), std::string::npos);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ const char* describe(Outcome outcome) {
       return "ambiguous";
     case Outcome::kDuplicate:
       return "seen twice in one scan";
+    case Outcome::kPending:
+      return "kept until its landmark can be located";
     case Outcome::kMapFull:
       return "map full";
     case Outcome::kNotInMap:

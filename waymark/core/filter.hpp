@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "waymark/core/calibration.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
@@ -22,6 +23,7 @@ enum class Outcome : std::uint8_t {
   kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
   kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
   kDuplicate,  ///< a second sighting of one landmark in one scan
+  kPending,    ///< kept until it can be told, with others, where its landmark is
   kMapFull,    ///< would have been a new landmark, but there is no room
   kNotInMap,   ///< of no landmark of a map that is held as it is
 };
@@ -75,6 +77,9 @@ class Filter {
 
   /// Where the time went, block by block.
   [[nodiscard]] virtual const FunctionBlocks& blocks() const = 0;
+
+  /// What is always wrong with the sensors, where the filter estimates any of it.
+  [[nodiscard]] virtual std::optional<CalibrationEstimate> calibration() const { return std::nullopt; }
 };
 
 }  // namespace waymark

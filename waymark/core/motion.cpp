@@ -24,7 +24,7 @@ PoseEstimate propagate(const PoseEstimate& before, const Motion& motion) {
 
 Motion compose(const Motion& first, const Motion& second) {
   const PoseEstimate both = propagate({first.increment, first.covariance}, second);
-  return {both.T_world_robot, both.covariance};
+  return {both.T_world_robot, both.covariance, first.duration_s + second.duration_s};
 }
 
 }  // namespace waymark

@@ -12,6 +12,7 @@ struct Motion {
   Pose2 increment;  ///< T_before_after
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of (x, y, theta) of the increment, robot frame before
+  double duration_s = 0.0;      ///< that it took, where that is known
 };
 
 /// The robot stood still: no noise enters, no particle is moved.

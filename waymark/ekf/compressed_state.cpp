@@ -73,8 +73,9 @@ void CompressedState::load(const Eigen::Ref<const Eigen::VectorXd>& mean,
   }
 }
 
-void CompressedState::predict(const Motion& motion) {
-  active_.predict(motion);
+void CompressedState::predict(const Motion& motion, const ErrorTerms& errors) {
+  assert(!compressing_ || std::ranges::none_of(errors, &ErrorTerm::takes_part));
+  active_.predict(motion, errors);
   step_began_ = now_;
   seen_this_step_ = 0;
 }
@@ -315,12 +316,15 @@ Sighting CompressedState::in_active(const Sighting& sighting) const {
   Sighting local = sighting;
   local.landmark = local_of(sighting.landmark);
   if (sighting.anchor >= 0) local.anchor = local_of(sighting.anchor);
+  if (sighting.second_anchor >= 0) local.second_anchor = local_of(sighting.second_anchor);
   return local;
 }
 
 Sighting CompressedState::moved_back(const Sighting& sighting) const {
   Sighting back = active_.moved_back(in_active(sighting));
   back.landmark = sighting.landmark;
+  back.anchor = sighting.anchor;
+  back.second_anchor = sighting.second_anchor;
   return back;
 }
 

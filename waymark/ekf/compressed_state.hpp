@@ -55,8 +55,12 @@ class CompressedState {
   void hold_landmarks() { active_.hold_landmarks(); }
   /// All landmarks together are the first region: there must be that many before the onset.
   void load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P);
-  void predict(const Motion& motion);
+  /// Motions that depend on lasting errors are for maps that are never compressed.
+  void predict(const Motion& motion, const ErrorTerms& errors = {});
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }
+  [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const {
+    return active_.errors_covariance(pair, other);
+  }
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const { return active_.expected(terms); }
   void relax_errors(int pair, double rho);
   [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
@@ -68,7 +72,7 @@ class CompressedState {
     return active_.common_covariance(in_active(a), in_active(b));
   }
   [[nodiscard]] bool update(std::span<const Sighting> sightings);
-  /// The anchor of a sighting, if any, must be in the region.
+  /// The anchors of a sighting, if any, must be in the region.
   [[nodiscard]] bool propose(std::span<const Sighting> sightings);
   void accept();
   /// Of sighted landmarks only.

@@ -23,14 +23,41 @@ constexpr double kNegligible = 0.04;
 constexpr double kStudentDof = 4.0;
 constexpr int kStudentIterations = 3;
 
+bool is_range(double range_m) { return std::isfinite(range_m) && range_m > kMinDistance_m; }
+
+bool is_usable(const Measurement& value) {
+  if (const auto* both = std::get_if<RangeBearing>(&value))
+    return is_range(both->range_m) && std::isfinite(both->bearing_rad);
+  if (const auto* range = std::get_if<Range>(&value)) return is_range(range->range_m);
+  const auto* bearing = std::get_if<Bearing>(&value);
+  return bearing != nullptr && std::isfinite(bearing->bearing_rad);
+}
+
 /// What an observation must bring before anything else is asked: its kind, an identity, finite numbers.
 Outcome admissible(const Observation& observation) {
-  const auto* z = std::get_if<RangeBearing>(&observation.value);
-  const bool usable = z != nullptr && observation.covariance.has_value() &&
-                      observation.covariance->allFinite() && std::isfinite(z->range_m) &&
-                      std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
+  const bool usable = observation.covariance.has_value() && observation.covariance->allFinite() &&
+                      is_usable(observation.value);
   if (!usable) return Outcome::kUnusable;
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
+}
+
+/// The noise of a sighting; the second row of one-dimensional ones is there for nothing.
+Eigen::Matrix2d noise_of(const Observation& observation) {
+  Eigen::Matrix2d R = *observation.covariance;
+  if (!std::holds_alternative<RangeBearing>(observation.value)) R(0, 1) = R(1, 0) = 0.0, R(1, 1) = 1.0;
+  return R;
+}
+
+/// z - h at one point, Jacobians at another.
+template <ObservationModel Model>
+ekf::Sighting sight_as(const typename Model::Value& z, const Linearization<Model::kDim>& expected,
+                       const Linearization<Model::kDim>& jacobians) {
+  ekf::Sighting sighting;
+  sighting.rows = Model::kDim;
+  sighting.nu.head<Model::kDim>() = Model::innovation(z, expected.predicted);
+  sighting.H_pose.topRows<Model::kDim>() = jacobians.H_pose;
+  sighting.H_landmark.topLeftCorner<Model::kDim, 2>() = jacobians.H_landmark;
+  return sighting;
 }
 
 }  // namespace
@@ -57,11 +84,13 @@ void describe(Schema& schema, EkfOptions& options) {
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
                 "whether a large map is updated region by region, at the cost of a small one; auto: once it "
                 "is large enough to gain");
+  describe(schema, options.odometry);
   schema.integer("ekf.region", options.region, {48, 20000},
                  "landmarks in a region of a compressed map; more where so many are seen at once");
 }
 
 ekf::Compression compression(const EkfOptions& options) {
+  if (options.odometry.estimate) return {options.region, options.capacity};
   switch (options.compressed) {
     case Compress::kAlways:
       return {options.region, std::max(options.region, options.loaded)};
@@ -76,7 +105,9 @@ ekf::Compression compression(const EkfOptions& options) {
 EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
                  const SensorErrors& errors, const std::optional<ekf::UnnamedOptions>& unnamed)
     : errors_(errors),
-      state_(2, options.capacity, options.consistency, compression(options), threads, errors_.pairs()),
+      odometry_(options.odometry, errors_.pairs()),
+      state_(2, options.capacity, options.consistency, compression(options), threads,
+             errors_.pairs() + odometry_.pairs()),
       options_(options),
       gate_(gate),
       T_robot_sensor_(T_robot_sensor),
@@ -90,6 +121,7 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   refined_.reserve(ekf::CompressedState::kMaxSightings);
   seen_.reserve(ekf::CompressedState::kMaxSightings);
   errors_.start(state_);
+  odometry_.start(state_);
 }
 
 void EkfSlam::load(const MapState& map) {
@@ -116,7 +148,7 @@ void EkfSlam::hold_landmarks() {
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
   if (!is_still(motion) && is_finite(motion)) {
-    state_.predict(motion);
+    odometry_.predict(state_, motion);
     errors_.drive(way_m(motion));
     way_m_ += way_m(motion);
   }
@@ -151,13 +183,15 @@ void EkfSlam::prepare(std::size_t count) {
   removed_.clear();
   management_.begin_scan();
   errors_.begin_scan();
+  viewpoint_of_scan_ = -1;
 }
 
 bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
   return std::any_of(innovations_.begin(), innovations_.begin() + static_cast<std::ptrdiff_t>(index),
                      [id](const Innovation& earlier) {
                        return earlier.landmark == id &&
-                              (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded);
+                              (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded ||
+                               earlier.outcome == Outcome::kPending);
                      });
 }
 
@@ -165,6 +199,8 @@ bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
 void EkfSlam::associate(std::size_t index, const Observation& observation) {
   Innovation& innovation = innovations_[index];
   innovation.outcome = admissible(observation);
+  if (unnamed_ && !std::holds_alternative<RangeBearing>(observation.value))
+    innovation.outcome = Outcome::kUnusable;
   if (innovation.outcome != Outcome::kMatched) return;
   innovation.landmark = *observation.id;
   if (already_seen(index, innovation.landmark)) {
@@ -188,9 +224,9 @@ void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>
   const Eigen::Matrix2d S = state_.innovation_covariance(*sighting);
   const auto nis = mahalanobis_squared<2>(sighting->nu, S);
   if (!nis) return;
-  innovation.dof = 2;
+  innovation.dof = sighting->rows;
   innovation.nis = *nis;
-  innovation.gate = gate_.threshold(2);
+  innovation.gate = gate_.threshold(sighting->rows);
   innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
   if (!management_.evicts()) return;
   if (innovation.outcome == Outcome::kMatched)
@@ -237,22 +273,36 @@ void EkfSlam::widen(std::span<const Observation> observations) {
 std::optional<ekf::Sighting> EkfSlam::linearize(int landmark, const Observation& observation) const {
   const View here{state_.pose().T_world_robot, state_.landmark(landmark)};
   const View at{state_.linearization_pose(), state_.linearization_landmark(landmark)};
-  auto sighting = sight(std::get<RangeBearing>(observation.value), here, at);
+  auto sighting = sight(observation.value, here, at, T_robot_sensor_);
   if (!sighting) return std::nullopt;
   const double range_m = (here.p_world.head<2>() - here.T_world_robot.position()).norm();
-  const ekf::SightingError error = errors_.of(landmarks_[static_cast<std::size_t>(landmark)].id, range_m);
+  const ekf::SightingError error =
+      error_of(landmarks_[static_cast<std::size_t>(landmark)].id, range_m, observation.value);
   sighting->landmark = landmark;
   sighting->errors = error.terms;
   sighting->nu -= state_.expected(error.terms);
-  sighting->R = *observation.covariance + error.unmodelled;
+  sighting->R = noise_of(observation) + error.unmodelled;
   return sighting;
+}
+
+/// What lasting errors do to the part that was measured: its rows first.
+ekf::SightingError EkfSlam::error_of(LandmarkId id, double range_m, const Measurement& value) const {
+  ekf::SightingError error = errors_.of(id, range_m);
+  if (std::holds_alternative<RangeBearing>(value)) return error;
+  const int row = std::holds_alternative<Bearing>(value) ? 1 : 0;
+  for (ekf::ErrorTerm& term : error.terms) {
+    term.J.row(0) = term.J.row(row).eval();
+    term.J.row(1).setZero();
+  }
+  error.unmodelled = Eigen::Vector2d(error.unmodelled(row, row), 0.0).asDiagonal().toDenseMatrix().eval();
+  return error;
 }
 
 /// The same where the update would go.
 std::optional<ekf::Sighting> EkfSlam::linearize_at_proposal(const ekf::Sighting& before,
                                                             const Observation& observation) const {
   const View there{state_.proposed_pose(), state_.proposed_landmark(before.landmark)};
-  auto sighting = sight(std::get<RangeBearing>(observation.value), there, there);
+  auto sighting = sight(observation.value, there, there, T_robot_sensor_);
   if (!sighting) return std::nullopt;
   sighting->landmark = before.landmark;
   sighting->errors = before.errors;
@@ -262,17 +312,19 @@ std::optional<ekf::Sighting> EkfSlam::linearize_at_proposal(const ekf::Sighting&
 }
 
 /// z - h and the Jacobians of h; nothing where a landmark is believed to be at the sensor itself.
-std::optional<ekf::Sighting> EkfSlam::sight(const RangeBearing& z, const View& here, const View& at) const {
-  const auto expected =
-      RangeBearingModel::linearize(here.T_world_robot, T_robot_sensor_, here.p_world.head<2>());
-  const auto jacobians =
-      RangeBearingModel::linearize(at.T_world_robot, T_robot_sensor_, at.p_world.head<2>());
-  if (!(std::min(expected.predicted[0], jacobians.predicted[0]) > kMinDistance_m)) return std::nullopt;
-  ekf::Sighting sighting;
-  sighting.nu = RangeBearingModel::innovation(z, expected.predicted);
-  sighting.H_pose = jacobians.H_pose;
-  sighting.H_landmark.leftCols<2>() = jacobians.H_landmark;
-  return sighting;
+std::optional<ekf::Sighting> EkfSlam::sight(const Measurement& value, const View& here, const View& at,
+                                            const Pose2& T_robot_sensor) {
+  const auto distance_m = [&](const View& view) {
+    return (view.p_world.head<2>() - (view.T_world_robot * T_robot_sensor).position()).norm();
+  };
+  if (!(std::min(distance_m(here), distance_m(at)) > kMinDistance_m)) return std::nullopt;
+  const auto as = [&]<class Model>(Model, const typename Model::Value& z) {
+    return sight_as<Model>(z, Model::linearize(here.T_world_robot, T_robot_sensor, here.p_world.head<2>()),
+                           Model::linearize(at.T_world_robot, T_robot_sensor, at.p_world.head<2>()));
+  };
+  if (const auto* range = std::get_if<Range>(&value)) return as(RangeModel{}, *range);
+  if (const auto* bearing = std::get_if<Bearing>(&value)) return as(BearingModel{}, *bearing);
+  return as(RangeBearingModel{}, std::get<RangeBearing>(value));
 }
 
 /// In blocks of at most kMaxSightings; a later block is linearised at what the earlier ones found.
@@ -341,7 +393,7 @@ bool EkfSlam::relinearize(std::span<const Observation> observations) {
 /// Little, Taylor 1989).
 double EkfSlam::heaviness(const ekf::Sighting& left, const Eigen::Matrix2d& R) const {
   if (options_.likelihood == ekf::Likelihood::kGaussian) return 1.0;
-  return (kStudentDof + left.nu.dot(R.llt().solve(left.nu))) / (kStudentDof + 2.0);
+  return (kStudentDof + left.nu.dot(R.llt().solve(left.nu))) / (kStudentDof + left.rows);
 }
 
 /// Whether there is room for one more landmark, if need be by removing one.
@@ -357,14 +409,33 @@ void EkfSlam::remove(int landmark) {
   const Landmark& last = landmarks_.back();
   state_.remove(landmark);
   management_.removed(landmark);
-  if (!last.existence) index_.assign(last.id, landmark);
+  if (last.is_viewpoint) renumber_viewpoint(static_cast<int>(std::ssize(landmarks_)) - 1, landmark);
+  if (has_name(last)) index_.assign(last.id, landmark);
   landmarks_[static_cast<std::size_t>(landmark)] = last;
   landmarks_.pop_back();
-  if (!gone.existence) index_.erase(gone.id);
+  if (has_name(gone)) index_.erase(gone.id);
   if (is_in_map(gone)) removed_.push_back(gone.id);
 }
 
+/// A point that was seen from the robot: it turns with it.
+int EkfSlam::append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise,
+                    const ekf::ErrorTerms& errors, const Landmark& landmark) {
+  Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
+  G_pose.topLeftCorner<2, 2>().setIdentity();
+  G_pose.block<2, 1>(0, 2) = perpendicular(p_world - state_.linearization_pose().position());
+  Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
+  added.topLeftCorner<2, 2>() = noise;
+  management_.added(landmark.is_viewpoint);
+  landmarks_.push_back(landmark);
+  landmarks_.back().seen_at_way_m = way_m_;
+  return state_.add({p_world.x(), p_world.y(), 0.0}, G_pose, added, errors);
+}
+
 void EkfSlam::add(std::size_t index, const Observation& observation) {
+  if (!std::holds_alternative<RangeBearing>(observation.value)) {
+    defer(index, observation);
+    return;
+  }
   if (!make_room()) {
     innovations_[index].outcome = Outcome::kMapFull;
     return;
@@ -377,22 +448,25 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   const auto inverse = RangeBearingModel::locate(
       state_.pose().T_world_robot, T_robot_sensor_,
       {z.range_m - expected_error[0], wrap_angle(z.bearing_rad - expected_error[1])});
-  const Eigen::Vector3d position(inverse.p_world.x(), inverse.p_world.y(), 0.0);
-  Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
-  G_pose.topRows<2>() = inverse.G_pose;
-  G_pose.block<2, 1>(0, 2) = perpendicular(inverse.p_world - state_.linearization_pose().position());
   const Eigen::Matrix2d& G = inverse.G_measurement;
-  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
-  noise.topLeftCorner<2, 2>() = G * (*observation.covariance + error.unmodelled) * G.transpose();
   for (ekf::ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
-  const int landmark = state_.add(position, G_pose, noise, error.terms);
-  management_.added();
-  landmarks_.push_back({.id = id, .observations = 1, .seen_at_way_m = way_m_, .place_m = inverse.p_world});
+  const int landmark =
+      append(inverse.p_world, G * (*observation.covariance + error.unmodelled) * G.transpose(), error.terms,
+             {.id = id, .observations = 1, .place_m = inverse.p_world});
   if (observation.id)
     index_.assign(id, landmark);
   else
     landmarks_.back().existence.emplace();
   if (unnamed_) note_sigma(landmark);
+}
+
+std::optional<CalibrationEstimate> EkfSlam::calibration() const {
+  const CalibrationEstimate odometry = odometry_.calibration(state_);
+  const CalibrationEstimate sensor = errors_.calibration(state_);
+  const CalibrationEstimate both{odometry.mean + sensor.mean, odometry.sigmas + sensor.sigmas,
+                                 odometry.prior_sigmas + sensor.prior_sigmas};
+  if (both.sigmas.isZero(0.0)) return std::nullopt;
+  return both;
 }
 
 Snapshot EkfSlam::snapshot() const {

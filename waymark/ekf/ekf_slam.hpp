@@ -14,7 +14,9 @@
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
 #include "waymark/ekf/lasting_errors.hpp"
+#include "waymark/ekf/locate.hpp"
 #include "waymark/ekf/map_management.hpp"
+#include "waymark/ekf/odometry_states.hpp"
 
 namespace waymark {
 
@@ -45,6 +47,7 @@ struct EkfOptions {
   int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   UpdateMethod update = UpdateMethod::kFast;
+  OdometryStateOptions odometry;  ///< with which a map is not compressed
   int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
   int loaded = 0;   ///< landmarks that load() will bring: they are the first region of a compressed map
 };
@@ -67,6 +70,11 @@ struct UnnamedOptions {
 
 /// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks, gated one by one;
 /// a first sighting adds its landmark, in the place of the least useful one when the map is full.
+///
+/// Ranges alone, or bearings alone, need identities. A landmark that is seen so is not in the state before
+/// several views of it, each with the place that it was seen from as points of the state, leave one position
+/// for it; then all of them correct it at once. Until then it costs a point, or two, per view, out of the
+/// capacity.
 ///
 /// Sightings without identity are refused, or, with UnnamedOptions, matched with landmarks that are likely.
 /// One that is left over begins a landmark if it is outside of the gates of all landmarks even after the
@@ -96,6 +104,7 @@ class EkfSlam final : public Filter {
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
+  [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
   /// How often the robot must have slipped far beyond its odometry: see correct().
@@ -104,8 +113,10 @@ class EkfSlam final : public Filter {
   [[nodiscard]] int merges() const { return merges_; }
 
  private:
+  /// A point of the state: a landmark, or one of a place where the sensor was.
   struct Landmark {
-    LandmarkId id;
+    LandmarkId id = {};
+    bool is_viewpoint = false;
     int observations = 0;
     std::optional<Existence> existence = {};  ///< of one that was met without a name
     double seen_at_way_m = 0.0;
@@ -154,6 +165,28 @@ class EkfSlam final : public Filter {
   };
 
   [[nodiscard]] Outcome of_no_landmark() const { return held_ ? Outcome::kNotInMap : Outcome::kAdded; }
+  /// A place where the sensor was: indices of its points in the state, and how many views hang on it.
+  struct Viewpoint {
+    int place = -1;
+    int ahead = -1;  ///< a metre ahead of it; -1 where no direction was measured
+    int users = 0;
+  };
+
+  /// A range or a bearing that is kept.
+  struct PartialView {
+    int viewpoint;
+    Measurement value;
+    double variance;
+  };
+
+  /// A landmark of which too little is known to have it in the state.
+  struct Unlocated {
+    LandmarkId id;
+    std::vector<PartialView> views = {};
+    double seen_at_way_m = 0.0;
+    double spacing_m;
+  };
+
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
@@ -164,8 +197,9 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
   [[nodiscard]] std::optional<ekf::Sighting> linearize_at_proposal(const ekf::Sighting& before,
                                                                    const Observation& observation) const;
-  [[nodiscard]] std::optional<ekf::Sighting> sight(const RangeBearing& z, const View& here,
-                                                   const View& at) const;
+  [[nodiscard]] static std::optional<ekf::Sighting> sight(const Measurement& value, const View& here,
+                                                          const View& at, const Pose2& T_robot_sensor);
+  [[nodiscard]] ekf::SightingError error_of(LandmarkId id, double range_m, const Measurement& value) const;
   void collect(std::size_t index, const Observation& observation);
   [[nodiscard]] bool refine(std::span<const Observation> observations);
   [[nodiscard]] bool relinearize(std::span<const Observation> observations);
@@ -174,10 +208,32 @@ class EkfSlam final : public Filter {
   [[nodiscard]] bool make_room();
   void remove(int landmark);
   void add(std::size_t index, const Observation& observation);
+  int append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const ekf::ErrorTerms& errors,
+             const Landmark& landmark);
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
   [[nodiscard]] bool is_in_map(const Landmark& landmark) const {
-    return !landmark.existence || landmark.existence->is_confirmed();
+    return !landmark.is_viewpoint && (!landmark.existence || landmark.existence->is_confirmed());
   }
+  [[nodiscard]] static bool has_name(const Landmark& landmark) {
+    return !landmark.is_viewpoint && !landmark.existence;
+  }
+
+  // Of ranges or bearings alone.
+  [[nodiscard]] int viewpoint_here(bool with_direction);
+  void release(int viewpoint);
+  void renumber_viewpoint(int from, int to);
+  void defer(std::size_t index, const Observation& observation);
+  void thin(Unlocated& unlocated);
+  template <class Here, class At>
+  [[nodiscard]] std::optional<ekf::Sighting> look_back(const PartialView& view,
+                                                       const Eigen::Vector2d& p_world, const Here& here,
+                                                       const At& at) const;
+  [[nodiscard]] std::optional<ekf::ViewsOfOne> views_at(const Unlocated& unlocated,
+                                                        const Eigen::Vector2d& p_world) const;
+  void consider_views(const Unlocated& unlocated, int landmark);
+  [[nodiscard]] bool locate(const Unlocated& unlocated);
+  [[nodiscard]] bool place(const Unlocated& unlocated, const Eigen::Vector2d& p_world, double anywhere_m);
+  [[nodiscard]] bool gather_views(const Unlocated& unlocated, int landmark, bool at_proposal);
 
   // Of sightings without a name.
   void match_unnamed(std::span<const Observation> observations);
@@ -205,6 +261,7 @@ class EkfSlam final : public Filter {
   void note_sigma(int landmark);
 
   ekf::LastingErrors errors_;
+  ekf::OdometryStates odometry_;
   ekf::CompressedState state_;
   EkfOptions options_;
   Gate gate_;
@@ -214,6 +271,9 @@ class EkfSlam final : public Filter {
   std::vector<Landmark> landmarks_;  // by index in the state
   std::optional<Unnamed> unnamed_;
   bool held_ = false;  // nothing is added
+  std::vector<Viewpoint> viewpoints_;
+  std::vector<Unlocated> unlocated_;
+  int viewpoint_of_scan_ = -1;
   double way_m_ = 0.0;
   int gated_in_a_row_ = 0;
   int slips_ = 0;

@@ -18,7 +18,10 @@ Eigen::Vector2d deviations(double range_ratio, double bearing_deg, double range_
 }  // namespace
 
 LastingErrors::LastingErrors(const SensorErrors& sensor)
-    : sensor_(sensor), first_loan_(sensor.shares() ? 1 : 0), loans_(sensor.lasts() ? kLoans : 0) {}
+    : sensor_(sensor),
+      offset_pair_(sensor.shares() ? 1 : 0),
+      first_loan_(offset_pair_ + (offsets() ? 1 : 0)),
+      loans_(sensor.lasts() ? kLoans : 0) {}
 
 void LastingErrors::start(CompressedState& state) const {
   for (int pair = 0; pair < pairs(); ++pair) state.relax_errors(pair, 0.0);
@@ -52,7 +55,8 @@ SightingError LastingErrors::of(LandmarkId landmark, double range_m) const {
     error.terms[term].pair = pair;
     error.terms[term].J.topRows<2>() = sigma.asDiagonal();
   };
-  if (first_loan_ > 0)
+  if (offsets()) take(2, offset_pair_, {sensor_.shared_range_sigma_m, 0.0});
+  if (sensor_.shares())
     take(0, 0, deviations(sensor_.shared_range_sigma_ratio, sensor_.shared_bearing_sigma_deg, range_m));
   if (loans_.empty()) return error;
   const Eigen::Vector2d sigma =
@@ -63,6 +67,20 @@ SightingError LastingErrors::of(LandmarkId landmark, double range_m) const {
   else
     error.unmodelled = sigma.cwiseAbs2().asDiagonal();
   return error;
+}
+
+CalibrationEstimate LastingErrors::calibration(const CompressedState& state) const {
+  CalibrationEstimate estimate;
+  const auto tell = [&](CalibrationIndex index, double prior_sigma, int pair, int member) {
+    if (!(prior_sigma > 0.0)) return;
+    estimate.prior_sigmas[index] = prior_sigma;
+    estimate.mean[index] = prior_sigma * state.errors(pair)[member];
+    estimate.sigmas[index] = prior_sigma * std::sqrt(state.errors_covariance(pair, pair)(member, member));
+  };
+  tell(kRangeScale, sensor_.shared_range_sigma_ratio, 0, 0);
+  tell(kBearingOffset, to_radians(sensor_.shared_bearing_sigma_deg), 0, 1);
+  tell(kRangeOffset, sensor_.shared_range_sigma_m, offset_pair_, 0);
+  return estimate;
 }
 
 }  // namespace waymark::ekf

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "waymark/core/calibration.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/ekf/compressed_state.hpp"
 #include "waymark/models/landmark_sensor.hpp"
@@ -17,9 +18,10 @@ struct SightingError {
 };
 
 /// Errors of the sensor that outlive a sighting, as states of the filter (the shaping filter of Bryson and
-/// Henrikson 1968). Pair 0 is what all sightings share, a calibration; the others are lent to the landmarks
-/// that were seen last, each a Gauss-Markov process along the way: what two sightings of one landmark have in
-/// common falls with exp(-way / lasting_way_m).
+/// Henrikson 1968). The first pairs are what all sightings share, a calibration: scale of ranges and offset
+/// of bearings, then offset of ranges. The others are lent to the landmarks that were seen last, each a
+/// Gauss-Markov process along the way: what two sightings of one landmark have in common falls with exp(-way
+/// / lasting_way_m).
 ///
 /// White noise in its place is wrong in one of two ways: as large as the errors are it hides how well
 /// successive sightings agree (NIS far below 1), as small as they scatter it takes what is repeated for news
@@ -39,6 +41,8 @@ class LastingErrors {
   void sight(CompressedState& state, LandmarkId landmark);
   /// What is in a sighting of a landmark after sight(). Range-bearing: metres and radians.
   [[nodiscard]] SightingError of(LandmarkId landmark, double range_m) const;
+  /// What all sightings share.
+  [[nodiscard]] CalibrationEstimate calibration(const CompressedState& state) const;
 
  private:
   struct Loan {
@@ -50,7 +54,10 @@ class LastingErrors {
   [[nodiscard]] int find(LandmarkId landmark) const;
   [[nodiscard]] int oldest() const;
 
+  [[nodiscard]] bool offsets() const { return sensor_.shared_range_sigma_m > 0.0; }
+
   SensorErrors sensor_;
+  int offset_pair_;
   int first_loan_;
   std::vector<Loan> loans_;  // by pair, less first_loan_
   double way_m_ = 0.0;

@@ -31,7 +31,7 @@ MapManagement::MapManagement(Eviction eviction, int capacity) : eviction_(evicti
   records_.reserve(static_cast<std::size_t>(capacity));
 }
 
-void MapManagement::added() { records_.push_back({0.0, 0, 0, scan_}); }
+void MapManagement::added(bool pinned) { records_.push_back({.scan = scan_, .pinned = pinned}); }
 
 void MapManagement::matched(int landmark, const PoseSighting& sighting) {
   Record& record = records_[static_cast<std::size_t>(landmark)];
@@ -66,7 +66,7 @@ std::optional<int> MapManagement::least_useful() const {
   std::optional<int> worst;
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const auto index = static_cast<int>(i);
-    if (is_in_scan(index)) continue;
+    if (records_[i].pinned || is_in_scan(index)) continue;
     if (!worst || usefulness(index) < usefulness(*worst)) worst = index;
   }
   return worst;

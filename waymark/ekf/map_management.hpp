@@ -41,8 +41,8 @@ class MapManagement {
   [[nodiscard]] bool evicts() const { return eviction_ != Eviction::kNone; }
 
   void begin_scan() { ++scan_; }
-  /// A landmark was appended.
-  void added();
+  /// A landmark was appended; a pinned one is never evicted.
+  void added(bool pinned = false);
   /// The landmark was sighted where it was expected.
   void matched(int landmark, const PoseSighting& sighting);
   /// The landmark was sighted, but outside its gate.
@@ -58,7 +58,7 @@ class MapManagement {
   /// How useful the landmark has been: the smaller, the sooner it is evicted.
   [[nodiscard]] double usefulness(int landmark) const { return usefulness(record(landmark)); }
 
-  /// Which one to evict; nothing if all landmarks belong to the present scan. O(landmarks).
+  /// Which one to evict; nothing if all landmarks are pinned or belong to the present scan. O(landmarks).
   [[nodiscard]] std::optional<int> least_useful() const;
 
  private:
@@ -67,6 +67,7 @@ class MapManagement {
     int matches = 0;
     int sightings = 0;
     std::int64_t scan = 0;  ///< the last one in which it was matched or added
+    bool pinned = false;
   };
 
   [[nodiscard]] const Record& record(int landmark) const {

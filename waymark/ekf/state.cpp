@@ -67,6 +67,12 @@ Eigen::Vector2d State::errors(int pair) const {
   return {x_[first], x_[first + 1]};
 }
 
+Eigen::Matrix2d State::errors_covariance(int pair, int other) const {
+  const std::size_t a = error_offset(pair);
+  const std::size_t b = error_offset(other);
+  return Eigen::Matrix2d{{P(a, b), P(a, b + 1)}, {P(a + 1, b), P(a + 1, b + 1)}};
+}
+
 Eigen::Vector2d State::error_part(const ErrorTerms& terms, const Buffer& values) {
   Eigen::Vector2d part = Eigen::Vector2d::Zero();
   for (const ErrorTerm& term : terms) {
@@ -137,7 +143,7 @@ void State::place_robot(const PoseEstimate& pose) {
   write_pose(pose);
 }
 
-void State::predict(const Motion& motion) {
+void State::predict(const Motion& motion, const ErrorTerms& errors) {
   const PoseEstimate before = pose();
   const Pose2 after = before.T_world_robot * motion.increment;
   // F's heading column is J times the displacement between the points of linearisation.
@@ -154,6 +160,33 @@ void State::predict(const Motion& motion) {
   x_[0] = after.x_m;
   x_[1] = after.y_m;
   x_[2] = after.theta_rad;
+  if (std::ranges::any_of(errors, &ErrorTerm::takes_part)) spread_errors(G, errors);
+}
+
+/// With A = G d(increment)/de and P_re as F leaves it: P_rm += A P_em, P_rr += A P_er + P_re A^T + A P_ee
+/// A^T.
+void State::spread_errors(const Eigen::Matrix3d& G, const ErrorTerms& errors) {
+  join_robot_rows();
+  const Touched t(Eigen::Matrix3d::Zero(), errors);
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d own = cross;
+  for (Eigen::Index i = 3; i < t.J.cols(); ++i) {
+    const Eigen::Vector3d a = G * t.J.col(i);
+    const std::size_t row = t.rows[static_cast<std::size_t>(i)];
+    cross += a * Eigen::RowVector3d(P(0, row), P(1, row), P(2, row));
+    for (Eigen::Index j = 3; j < t.J.cols(); ++j)
+      own += P(row, t.rows[static_cast<std::size_t>(j)]) * a * (G * t.J.col(j)).transpose();
+  }
+  const Eigen::Matrix3d more = cross + cross.transpose() + own;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] += more(static_cast<int>(i), static_cast<int>(j));
+  for (std::size_t j = 3; j < size(); ++j) {
+    Eigen::Vector3d column = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 3; i < t.J.cols(); ++i)
+      column += P(t.rows[static_cast<std::size_t>(i)], j) * t.J.col(i);
+    column = (G * column).eval();
+    for (std::size_t i = 0; i < 3; ++i) P_[i * ld_ + j] += column[static_cast<int>(i)];
+  }
 }
 
 double State::covariance(std::size_t i, std::size_t j) const {
@@ -176,10 +209,17 @@ Eigen::Vector2d State::join_robot_rows() {
 }
 
 Touched State::touched(const Sighting& sighting, int rows) const {
-  const bool anchored = sighting.anchor >= 0;
-  Touched t(sighting.H_pose.topRows(rows), sighting.errors, (anchored ? 2 : 1) * dimension_);
-  t.set_landmark(t.head, offset(sighting.landmark), dimension_, sighting.H_landmark);
-  if (anchored) t.set_landmark(t.head + dimension_, offset(sighting.anchor), dimension_, sighting.H_anchor);
+  const int points = 1 + (sighting.anchor >= 0 ? 1 : 0) + (sighting.second_anchor >= 0 ? 1 : 0);
+  Touched t(sighting.H_pose.topRows(rows), sighting.errors, points * dimension_);
+  int column = t.head;
+  const auto touch = [&](int landmark, const Eigen::Matrix<double, 2, 3>& H) {
+    if (landmark < 0) return;
+    t.set_landmark(column, offset(landmark), dimension_, H);
+    column += dimension_;
+  };
+  touch(sighting.landmark, sighting.H_landmark);
+  touch(sighting.anchor, sighting.H_anchor);
+  touch(sighting.second_anchor, sighting.H_second_anchor);
   return t;
 }
 
@@ -290,11 +330,11 @@ Eigen::Vector2d State::proposed_expected(const ErrorTerms& terms) const {
 }
 
 Eigen::Vector2d State::explained(const Sighting& sighting) const {
-  return sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
-         sighting.H_landmark * point(dx_, sighting.landmark) +
-         (sighting.anchor < 0 ? Eigen::Vector2d::Zero()
-                              : (sighting.H_anchor * point(dx_, sighting.anchor)).eval()) +
-         error_part(sighting.errors, dx_);
+  Eigen::Vector2d sum = sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
+                        sighting.H_landmark * point(dx_, sighting.landmark);
+  if (sighting.anchor >= 0) sum += sighting.H_anchor * point(dx_, sighting.anchor);
+  if (sighting.second_anchor >= 0) sum += sighting.H_second_anchor * point(dx_, sighting.second_anchor);
+  return sum + error_part(sighting.errors, dx_);
 }
 
 /// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
@@ -312,6 +352,8 @@ Sighting State::moved_back(const Sighting& sighting) const {
       back.H_pose.col(2) += turned(sighting.H_landmark, point(dx_, sighting.landmark).head<2>());
     if (sighting.anchor >= 0)
       back.H_pose.col(2) += turned(sighting.H_anchor, point(dx_, sighting.anchor).head<2>());
+    if (sighting.second_anchor >= 0)
+      back.H_pose.col(2) += turned(sighting.H_second_anchor, point(dx_, sighting.second_anchor).head<2>());
   }
   back.nu += explained(back);
   return back;

@@ -26,15 +26,17 @@ enum class Consistency {
 /// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
 /// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count. `errors` says
 /// which lasting errors of the sensor are in z. Where the landmark is relative to another one, `anchor` names
-/// that and H_anchor is the Jacobian to it.
+/// that and H_anchor is the Jacobian to it; `second_anchor` likewise, where there is one more.
 struct Sighting {
   int landmark = 0;
   int anchor = -1;
+  int second_anchor = -1;
   int rows = 2;
   Eigen::Vector2d nu = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 3> H_pose = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 3> H_landmark = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 3> H_anchor = Eigen::Matrix<double, 2, 3>::Zero();
+  Eigen::Matrix<double, 2, 3> H_second_anchor = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
   ErrorTerms errors = {};
 };
@@ -104,11 +106,15 @@ class State {
   /// Puts the robot somewhere else: a belief in its pose that is independent of everything.
   void place_robot(const PoseEstimate& pose);
 
-  /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed.
-  void predict(const Motion& motion);
+  /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed. Where
+  /// `errors` say how the motion's increment depends on lasting errors, d(x, y, theta)/derrors, P_rm is
+  /// brought up to date now: O(n).
+  void predict(const Motion& motion, const ErrorTerms& errors = {});
 
   /// Expected values of a pair of lasting errors; zero at first, and certainly so.
   [[nodiscard]] Eigen::Vector2d errors(int pair) const;
+  /// Covariance of a pair with another, or with itself.
+  [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const;
   /// What the state expects of the errors in a sighting.
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const;
   /// Lets a pair drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has unit variance.
@@ -221,6 +227,7 @@ class State {
     return i <= j ? P_[i * ld_ + j] : P_[j * ld_ + i];
   }
   [[nodiscard]] std::size_t place(int i) const;
+  void spread_errors(const Eigen::Matrix3d& G, const ErrorTerms& errors);
 
   void write_pose(const PoseEstimate& pose);
   std::size_t project(std::span<const Sighting> sightings);

@@ -17,7 +17,7 @@ struct ErrorTerm {
   [[nodiscard]] bool takes_part() const { return pair >= 0; }
 };
 /// At most so many at once.
-inline constexpr int kErrorTerms = 2;
+inline constexpr int kErrorTerms = 3;
 using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 
 /// Row of the state at which a pair of lasting errors begins: they come right after the robot.
@@ -26,7 +26,7 @@ using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 /// What something linear depends on: rows of the state, and its Jacobian to them. First the robot, then
 /// lasting errors, then landmarks.
 struct Touched {
-  static constexpr int kMost = 9 + 2 * kErrorTerms;
+  static constexpr int kMost = 12 + 2 * kErrorTerms;
 
   /// The robot and the errors, with `landmark` columns of zeros for landmarks' rows, which are not set.
   template <class JacobianToPose>

@@ -39,7 +39,7 @@ void describe(Schema& schema, LandmarkSensor& s) {
       "sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
       "standard deviation of what all ranges of a log have in common, per metre; both filters estimate it");
   schema.real("sensor.shared_range_sigma_m", s.errors.shared_range_sigma_m, {0.0, 100.0},
-              "standard deviation of an offset of all ranges; FastSLAM estimates it, the EKF knows none");
+              "the same of an offset of all ranges");
   schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
               "the same of all bearings, degrees");
   schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},

@@ -12,7 +12,7 @@ namespace waymark {
 /// Errors of a sensor that are not drawn anew at every sighting.
 struct SensorErrors {
   double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
-  double shared_range_sigma_m = 0.0;      ///< of an offset of all ranges; the EKF has no state for it
+  double shared_range_sigma_m = 0.0;      ///< of an offset of all ranges
   double shared_bearing_sigma_deg = 0.0;
   double lasting_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
   double lasting_bearing_sigma_deg = 0.0;

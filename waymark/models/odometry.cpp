@@ -64,6 +64,8 @@ void describe(Schema& schema, OdometryOptions& o) {
               "variance of a steering angle's error times the way on which one error lasts");
   schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
+  schema.real("motion.turn_bias_degps", o.turn_bias_degps, {-100.0, 100.0},
+              "what the odometry turns too little while the robot moves, degrees per second");
   schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
               "a robot slower than this that also turns little stands, m/s: what its odometry turns then is "
               "its bias, and taken out of what follows; 0: never");

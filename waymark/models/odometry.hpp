@@ -50,9 +50,10 @@ struct OdometryOptions {
   OdometryNoise noise;
   StandingOptions standing;
   ArcModel arc = ArcModel::kExact;
-  double speed_scale = 1.0;    ///< true distance per measured distance
-  double turn_scale = 1.0;     ///< true turn per measured turn
-  double outer_point_m = 0.0;  ///< speeds are reported of a point so far out on the outside of a turn
+  double speed_scale = 1.0;      ///< true distance per measured distance
+  double turn_scale = 1.0;       ///< true turn per measured turn
+  double turn_bias_degps = 0.0;  ///< that is missing in the measured turn while the robot moves
+  double outer_point_m = 0.0;    ///< speeds are reported of a point so far out on the outside of a turn
   double response_s =
       0.0;  ///< how much later than its stamp a motion happens: the stamps of commands are early
 };

@@ -118,7 +118,7 @@ Json smoothed_json(const SmoothedFigures& s) {
             {"poses", s.poses},
             {"sightings", s.sightings}};
   json["calibration"] = Json::object();
-  for (const auto& [key, value, sigma] : s.calibration) json["calibration"][key] = rounded(value);
+  for (const auto& each : s.calibration) json["calibration"][each.key] = rounded(each.value);
   json["live"] = distance_json(s.live);
   json["live"].erase("nees_median");
   if (s.truth && (s.truth->pairs > 0 || s.truth->map)) json["truth"] = distance_json(*s.truth);
@@ -174,6 +174,8 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.peak_rss_mb = peak_rss_mb();
   metrics.nis_per_dof = nis_per_dof(recording.innovations);
   metrics.truth = truth;
+  if (const auto calibration = recording.filter->calibration())
+    metrics.calibration = smooth::calibrated_keys(*calibration, config);
   return metrics;
 }
 
@@ -200,6 +202,8 @@ std::string to_json(const Metrics& m) {
             {"peak_rss_mb", rounded(m.peak_rss_mb)}};
   put(json, "nis_per_dof", m.nis_per_dof);
   if (m.truth && (m.truth->pairs > 0 || m.truth->map)) json["truth"] = truth_json(*m.truth);
+  for (const auto& each : m.calibration)
+    json["calibration"][each.key] = {{"value", rounded(each.value)}, {"sigma", rounded(each.sigma)}};
   if (m.smoothed) json["smoothed"] = smoothed_json(*m.smoothed);
   return json.dump(2) + "\n";
 }
@@ -218,7 +222,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
           smoothed.converged,
           smoothed.poses,
           smoothed.sightings,
-          calibrated_keys(smoothed, config),
+          smooth::calibrated_keys(smoothed.calibration, config),
           live,
           truth};
 }
@@ -252,6 +256,14 @@ std::string to_text(const eval::Evaluation& e) {
   return text;
 }
 
+static std::string to_text(const std::vector<smooth::CalibratedKey>& calibration) {
+  std::string text;
+  for (const auto& [key, value, sigma, is_untold] : calibration)
+    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}{}\n", key, value, sigma,
+                        is_untold ? "   (as assumed: the log says nothing of it)" : "");
+  return text;
+}
+
 static std::string to_text(const SmoothedFigures& s) {
   std::string text = fmt::format("smoothed: {} poses and {} sightings in {:.2f} s{}\n", s.poses, s.sightings,
                                  s.cpu_s, s.converged ? "" : ", not converged");
@@ -261,9 +273,7 @@ static std::string to_text(const SmoothedFigures& s) {
     if (s.truth->map) text += line("landmark RMSE, with the path", s.truth->map->rmse_m, "m");
   }
   text += line("live path was off by, aligned", s.live.path.position_rmse_aligned_m, "m");
-  for (const auto& [key, value, sigma] : s.calibration)
-    text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}\n", key, value, sigma);
-  return text;
+  return text + to_text(s.calibration);
 }
 
 std::string to_text(const Metrics& m) {
@@ -273,6 +283,7 @@ std::string to_text(const Metrics& m) {
   if (m.truth) text += to_text(*m.truth);
   text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
   text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));
+  text += to_text(m.calibration);
   if (m.smoothed) text += to_text(*m.smoothed);
   return text;
 }

@@ -44,6 +44,7 @@ struct Metrics {
   double peak_rss_mb = 0.0;
   std::optional<double> nis_per_dof;  ///< over accepted observations; ideal 1
   std::optional<eval::Evaluation> truth;
+  std::vector<smooth::CalibratedKey> calibration;  ///< that the filter estimated
   std::optional<SmoothedFigures> smoothed;
 };
 

@@ -31,8 +31,15 @@ Result<void> write_smoothed(const RunResult& result, const std::filesystem::path
   if (auto written = write_trajectory(folder / "trajectory_smoothed.tum", smoothed.trajectory); !written)
     return written;
   const Snapshot snapshot{smoothed.trajectory.back().stamp, {}, smoothed.landmarks};
-  if (auto written = write_map_csv(folder / "map_smoothed.csv", snapshot); !written) return written;
-  return write_file(folder / "calibration.yaml", smooth::calibration_yaml(smoothed, result.config));
+  return write_map_csv(folder / "map_smoothed.csv", snapshot);
+}
+
+/// What the whole log says, or else the filter.
+Result<void> write_calibration(const RunResult& result, const std::filesystem::path& folder) {
+  const auto live = result.recording.filter->calibration();
+  if (!result.smoothed && !live) return {};
+  const CalibrationEstimate& estimate = result.smoothed ? result.smoothed->calibration : *live;
+  return write_file(folder / "calibration.yaml", smooth::calibration_yaml(estimate, result.config));
 }
 
 }  // namespace
@@ -60,6 +67,7 @@ Result<void> write_results(const RunResult& result, const std::filesystem::path&
     return written;
   if (auto written = write_maps(result, folder); !written) return written;
   if (auto written = write_smoothed(result, folder); !written) return written;
+  if (auto written = write_calibration(result, folder); !written) return written;
   Config config = result.config;
   if (auto written = write_file(folder / "config.yaml", describe(config).to_yaml()); !written) return written;
   if (auto written = write_file(folder / "metrics.json", to_json(result.metrics)); !written) return written;

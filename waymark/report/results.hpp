@@ -20,8 +20,8 @@ struct RunResult : study::ScoredRun {
                                         const std::function<bool(double)>& keep_going = {});
 
 /// Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and
-/// report.html into `folder`; of a smoothed run trajectory_smoothed.tum, map_smoothed.csv and
-/// calibration.yaml, too.
+/// report.html into `folder`; of a smoothed run trajectory_smoothed.tum and map_smoothed.csv, too, and
+/// calibration.yaml where one was estimated.
 /// `command` is what the report says it came from.
 [[nodiscard]] Result<void> write_results(const RunResult& result, const std::filesystem::path& folder,
                                          const std::string& command);

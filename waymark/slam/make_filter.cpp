@@ -10,13 +10,20 @@ std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
   return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
 }
 
-/// EKF-SLAM over range and bearing.
-std::unique_ptr<Filter> make_range_bearing_ekf(const Config& config, const std::optional<MapState>& start) {
+/// Where nothing tells how large the world is, distances are what the odometry says.
+EkfOptions ekf_options(const Config& config) {
+  EkfOptions options = config.ekf;
+  if (!tells_size(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
+  return options;
+}
+
+/// EKF-SLAM over ranges, bearings or both.
+std::unique_ptr<Filter> make_planar_ekf(const Config& config, const std::optional<MapState>& start) {
   const auto T_robot_sensor = config.sensor.T_robot_sensor();
   if (config.map.localize && start)
-    return std::make_unique<Localizer>(*start, config.ekf, config.gate, T_robot_sensor, config.threads,
+    return std::make_unique<Localizer>(*start, ekf_options(config), config.gate, T_robot_sensor, config.threads,
                                        config.sensor.errors, unnamed(config));
-  EkfOptions options = config.ekf;
+  EkfOptions options = ekf_options(config);
   if (start) options.loaded = static_cast<int>(start->ids.size());
   auto filter = std::make_unique<EkfSlam>(options, config.gate, T_robot_sensor, config.threads,
                                           config.sensor.errors, unnamed(config));
@@ -33,20 +40,23 @@ std::unique_ptr<Filter> make_pixel_ekf(const Config& config, const std::optional
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config, const std::optional<MapState>& start) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
-  if (config.associate != Association::kKnown && config.observe == Observe::kPixel)
-    return Error{"associate: pixels need identities: associate=known"};
+  if (config.associate != Association::kKnown && config.observe != Observe::kRangeBearing)
+    return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
   if (config.ekf.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
+  if (config.ekf.odometry.estimate &&
+      (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
+    return Error{
+        "ekf.calibrate_odometry: not with observe=pixel, nor with ekf.compressed=true: it moves the whole "
+        "map"};
   switch (config.observe) {
     case Observe::kRangeBearing:
-      return make_range_bearing_ekf(config, start);
-    case Observe::kPixel:
-      return make_pixel_ekf(config, start);
     case Observe::kRange:
     case Observe::kBearing:
-      return Error{
-          "observe: the EKF takes range-bearing and pixel so far; range or bearing alone: filter=fastslam"};
+      return make_planar_ekf(config, start);
+    case Observe::kPixel:
+      return make_pixel_ekf(config, start);
   }
   return Error{"observe: unknown"};
 }

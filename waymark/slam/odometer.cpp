@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "waymark/core/angle.hpp"
+
 namespace waymark {
 namespace {
 
@@ -60,15 +62,18 @@ Motion Odometer::advance(Stamp stamp, const Event* next) {
   if (held_) motion = advance_held(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
-  if (!is_still(motion)) take_bias_out(motion.increment, to_seconds(stamp - *now_));
+  if (!is_still(motion)) {
+    motion.duration_s = to_seconds(stamp - *now_);
+    take_bias_out(motion.increment, motion.duration_s);
+  }
   now_ = stamp;
   return motion;
 }
 
 void Odometer::take_bias_out(Pose2& increment, double dt_s) {
   turn_bias_.look_at(increment, dt_s);
-  const double rate_radps = turn_bias_.rate_radps();
-  if (rate_radps != 0.0) increment = turned_more(increment, -rate_radps * dt_s, options_.arc);
+  const double missing_radps = to_radians(options_.turn_bias_degps) - turn_bias_.rate_radps();
+  if (missing_radps != 0.0) increment = turned_more(increment, missing_radps * dt_s, options_.arc);
 }
 
 Motion Odometer::advance_held(Stamp stamp) {

@@ -51,6 +51,10 @@ std::optional<Eigen::Matrix2d> used_covariance(const LandmarkSensor& sensor, con
 
 }  // namespace
 
+bool tells_size(Observe observe, const SensorErrors& errors) {
+  return observe != Observe::kBearing && !(errors.shared_range_sigma_ratio > 0.0);
+}
+
 void describe(Schema& schema, PipelineOptions& options) {
   schema.real("pipeline.reorder_window_s", options.reorder_window_s, {0.0, 60.0},
               "how late an event may arrive and still be put in its place, s");

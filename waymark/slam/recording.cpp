@@ -39,6 +39,15 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   return lines;
 }
 
+std::vector<std::string> describe_untold(const Config& config) {
+  if (!config.ekf.odometry.estimate || config.filter != FilterKind::kEkf ||
+      tells_size(config.observe, config.sensor.errors))
+    return {};
+  return {
+      "motion.speed_scale was not estimated: without ranges of known scale nothing tells a large world from "
+      "a small one"};
+}
+
 /// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
 void keep_for_smoothing(Recording& recording, const Step& step) {
   recording.motions.push_back(step.motion);
@@ -183,6 +192,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.notes = source.notes();
   if (front_end) finish_pictures(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
+  std::ranges::move(describe_untold(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;
 }

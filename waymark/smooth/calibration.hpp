@@ -2,25 +2,13 @@
 
 #include <Eigen/Core>
 
+#include "waymark/core/calibration.hpp"
 #include "waymark/core/pose2.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/slam/pipeline.hpp"
 #include "waymark/slam/smooth_options.hpp"
 
 namespace waymark::smooth {
-
-/// What is estimated of the sensors beside path and map, each as a deviation from what the config says.
-enum CalibrationIndex : Eigen::Index {
-  kSpeedScale,     ///< true distance = (1 + c) measured
-  kTurnScale,      ///< true turn = (1 + c) measured + bias dt
-  kTurnBias,       ///< rad/s while the robot moves
-  kRangeScale,     ///< range = (1 + c) distance + offset
-  kRangeOffset,    ///< m
-  kBearingOffset,  ///< rad
-  kCalibrationSize
-};
-
-using Calibration = Eigen::Matrix<double, kCalibrationSize, 1>;
 
 /// Standard deviations before the log was seen; 0: is not estimated. The scale of distances is so only
 /// against ranges that can be trusted: else nothing would tell a large world from a small one.

@@ -4,8 +4,6 @@
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/models/observation_models.hpp"
 
@@ -196,43 +194,14 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config) {
   Smoothed smoothed;
   smoothed.trajectory = Bender(recording, run, solution).path();
   smoothed.landmarks = map_of(run, solution);
-  smoothed.calibration = solution.estimate.calibration;
-  smoothed.calibration_sigmas = solution.calibration_sigmas;
+  smoothed.calibration = {solution.estimate.calibration, solution.calibration_sigmas,
+                          run.graph.calibration_sigmas};
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
   smoothed.poses = run.steps.size();
   smoothed.sightings = run.graph.sightings.size();
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
-}
-
-std::vector<CalibratedKey> calibrated_keys(const Smoothed& smoothed, const Config& config) {
-  std::vector<CalibratedKey> keys;
-  // `unit`: of the key, per unit of the deviation.
-  const auto add = [&](const char* key, CalibrationIndex index, double before, double unit) {
-    const double sigma = smoothed.calibration_sigmas[index];
-    if (sigma > 0.0)
-      keys.push_back({key, before + unit * smoothed.calibration[index], std::abs(unit) * sigma});
-  };
-  const OdometryOptions& odometry = config.odometry;
-  const LandmarkSensor& sensor = config.sensor;
-  add("motion.speed_scale", kSpeedScale, odometry.speed_scale, odometry.speed_scale);
-  add("motion.turn_scale", kTurnScale, odometry.turn_scale, odometry.turn_scale);
-  add("sensor.range_scale", kRangeScale, sensor.range_scale, sensor.range_scale);
-  add("sensor.range_offset_m", kRangeOffset, sensor.range_offset_m, sensor.range_scale);
-  add("sensor.yaw_deg", kBearingOffset, sensor.yaw_deg, to_degrees(-1.0));
-  return keys;
-}
-
-std::string calibration_yaml(const Smoothed& smoothed, const Config& config) {
-  std::string yaml = "# What the whole log says about the sensors; for --config.\n";
-  for (const auto& [key, value, sigma] : calibrated_keys(smoothed, config))
-    yaml += fmt::format("{}: {:.6g}  # +- {:.2g}\n", key, value, sigma);
-  if (const double sigma = smoothed.calibration_sigmas[kTurnBias]; sigma > 0.0)
-    yaml += fmt::format(
-        "# While the robot moved, its odometry turned {:.4f} +- {:.4f} degrees per second less.\n",
-        to_degrees(smoothed.calibration[kTurnBias]), to_degrees(sigma));
-  return yaml;
 }
 
 }  // namespace waymark::smooth

@@ -1,0 +1,130 @@
+// EkfSlam with ranges or bearings alone.
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/circle_world.hpp"
+#include "waymark/core/gaussian.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+
+namespace waymark {
+namespace {
+
+using test::CircleWorld;
+
+enum class Part { kRange, kBearing };
+
+std::vector<Observation> part_of(std::vector<Observation> scan, Part part) {
+  for (Observation& seen : scan) {
+    const auto z = std::get<RangeBearing>(seen.value);
+    const Eigen::Matrix2d R = *seen.covariance;
+    const bool range = part == Part::kRange;
+    if (range)
+      seen.value = Range{z.range_m};
+    else
+      seen.value = Bearing{z.bearing_rad};
+    seen.covariance = Eigen::Vector2d(range ? R(0, 0) : R(1, 1), 0.0).asDiagonal().toDenseMatrix();
+  }
+  return scan;
+}
+
+void drive(EkfSlam& filter, CircleWorld& world, int steps, Part part) {
+  for (int i = 0; i < steps; ++i) {
+    filter.predict(world.move());
+    filter.correct(part_of(world.look(), part));
+  }
+}
+
+class EkfSlamOfPart : public testing::TestWithParam<Part> {};
+
+TEST_P(EkfSlamOfPart, FollowsTheTruthWithinItsOwnUncertainty) {
+  double nees = 0.0;
+  double landmark_nees = 0.0;
+  constexpr int kRuns = 16;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, world.mount());
+    drive(filter, world, 200, GetParam());
+    const auto pose = filter.pose();
+    nees += *mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance) / kRuns;
+    const auto landmarks = filter.snapshot().landmarks;
+    ASSERT_EQ(landmarks.size(), 8U) << seed;
+    for (const auto& landmark : landmarks) {
+      const Eigen::Vector2d error =
+          landmark.position_m.head<2>() - world.landmarks()[static_cast<std::size_t>(landmark.id.number)];
+      landmark_nees +=
+          *mahalanobis_squared<2>(error, landmark.covariance.topLeftCorner<2, 2>()) / (8 * kRuns);
+    }
+  }
+  // 99.9 % band of a mean of 16 chi-square variables with 3 degrees of freedom; landmarks of one run share
+  // their errors, so theirs is as wide.
+  EXPECT_GT(nees, 1.3);
+  EXPECT_LT(nees, 5.2);
+  EXPECT_GT(landmark_nees, 0.7);
+  EXPECT_LT(landmark_nees, 4.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, EkfSlamOfPart, testing::Values(Part::kRange, Part::kBearing));
+
+class EkfSlamOfParts : public testing::TestWithParam<std::tuple<Part, ekf::Consistency>> {
+ protected:
+  static EkfSlam make(const CircleWorld& world, int capacity = 100) {
+    return EkfSlam({std::get<1>(GetParam()), capacity}, {}, world.mount());
+  }
+  static Part part() { return std::get<0>(GetParam()); }
+};
+
+TEST_P(EkfSlamOfParts, NoViewpointIsLeftOnceAllLandmarksAreLocated) {
+  CircleWorld world(3);
+  EkfSlam filter = make(world);
+  drive(filter, world, 5, part());
+  EXPECT_GT(filter.state().landmarks(), 0);
+  EXPECT_TRUE(filter.snapshot().landmarks.empty());
+  EXPECT_TRUE(filter.save().ids.empty());
+  drive(filter, world, 195, part());
+  EXPECT_EQ(filter.snapshot().landmarks.size(), 8U);
+  EXPECT_EQ(filter.state().landmarks(), 8);
+}
+
+TEST_P(EkfSlamOfParts, ALandmarkIsPendingUntilItIsAddedOnce) {
+  CircleWorld world(4);
+  EkfSlam filter = make(world);
+  EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kPending), 8);
+  int added = 0;
+  for (int i = 0; i < 200; ++i) {
+    filter.predict(world.move());
+    added += filter.correct(part_of(world.look(), part())).count(Outcome::kAdded);
+  }
+  EXPECT_EQ(added, 8);
+  EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kMatched), 8);
+}
+
+TEST_P(EkfSlamOfParts, ARobotThatStandsNeverLocates) {
+  CircleWorld world(5);
+  EkfSlam filter = make(world);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kPending), 8);
+  EXPECT_LE(filter.state().landmarks(), 2);
+}
+
+TEST_P(EkfSlamOfParts, AMapWithLittleRoomStaysWithinIt) {
+  CircleWorld world(6);
+  EkfSlam filter = make(world, 12);
+  for (int i = 0; i < 200; ++i) {
+    filter.predict(world.move());
+    filter.correct(part_of(world.look(), part()));
+    ASSERT_LE(filter.state().landmarks(), 12);
+    ASSERT_TRUE(filter.pose().covariance.allFinite());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EkfSlamOfParts,
+                         testing::Combine(testing::Values(Part::kRange, Part::kBearing),
+                                          testing::Values(ekf::Consistency::kInvariant,
+                                                          ekf::Consistency::kFej,
+                                                          ekf::Consistency::kStandard)));
+
+}  // namespace
+}  // namespace waymark

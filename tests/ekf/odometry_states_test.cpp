@@ -1,0 +1,127 @@
+#include "waymark/ekf/odometry_states.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "support/circle_world.hpp"
+#include "support/matrix_near.hpp"
+#include "waymark/core/random.hpp"
+#include "waymark/ekf/ekf_slam.hpp"
+
+namespace waymark {
+namespace {
+
+using test::CircleWorld;
+using test::matrix_near;
+
+/// What an odometry with these errors says of a motion.
+Motion reported(const Motion& motion, const OdometryErrors& errors, double dt_s) {
+  Motion wrong = motion;
+  wrong.duration_s = dt_s;
+  wrong.increment.theta_rad = (motion.increment.theta_rad - errors[2] * dt_s) / (1.0 + errors[1]);
+  wrong.increment.x_m = motion.increment.x_m / (1.0 + errors[0]);
+  return wrong;
+}
+
+EkfOptions calibrating() {
+  EkfOptions options;
+  options.capacity = 20;
+  options.odometry = {true, 0.1, 0.1, 1.0};
+  return options;
+}
+
+TEST(OdometryStates, LearnsAllThreeErrorsWithinWhatItSaysOfThem) {
+  const OdometryErrors errors(0.08, -0.12, 0.01);
+  Eigen::Vector3d d2 = Eigen::Vector3d::Zero();
+  constexpr int kRuns = 30;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    EkfSlam filter(calibrating(), {}, world.mount());
+    for (int i = 0; i < 300; ++i) {
+      filter.predict(reported(world.move(), errors, 0.1));
+      filter.correct(world.look());
+    }
+    const auto learnt = filter.calibration();
+    ASSERT_TRUE(learnt);
+    const Eigen::Vector3d error = learnt->mean.head<3>() - errors;
+    d2 += error.cwiseQuotient(learnt->sigmas.head<3>()).cwiseAbs2() / kRuns;
+    EXPECT_LT(learnt->sigmas[kSpeedScale], 0.05);
+  }
+  // On one circle turn scale and rate cannot be told apart: each stays within its prior. 99.9 % band of a
+  // mean of 30 chi-square variables of one degree of freedom.
+  EXPECT_LT(d2.maxCoeff(), 4.0);
+  EXPECT_LT(d2[0], 2.1);
+  EXPECT_GT(d2[0], 0.35);
+}
+
+TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
+  CircleWorld world(1);
+  EkfSlam filter(calibrating(), {}, world.mount());
+  for (int i = 0; i < 20; ++i) {
+    filter.predict({});
+    filter.correct(world.look());
+  }
+  const auto learnt = filter.calibration();
+  ASSERT_TRUE(learnt);
+  const Eigen::Vector3d prior = calibrating().odometry.sigmas();
+  EXPECT_TRUE(matrix_near(learnt->mean.head<3>(), Eigen::Vector3d::Zero(), 1e-15));
+  EXPECT_TRUE(matrix_near(learnt->sigmas.head<3>(), prior, 1e-12));
+  for (const CalibrationIndex index : {kSpeedScale, kTurnScale, kTurnBias})
+    EXPECT_TRUE(learnt->is_untold(index));
+}
+
+TEST(OdometryStates, AreOffUnlessAskedFor) {
+  CircleWorld world(1);
+  EXPECT_FALSE(EkfSlam({}, {}, world.mount()).calibration());
+}
+
+/// The covariance after a motion that depends on lasting errors is F P F^T + G Q G^T of the whole state, by
+/// plain matrices.
+TEST(StatePredict, SpreadsLastingErrorsAsPlainMatricesDo) {
+  RandomStream random(7, StreamPurpose::kWorld);
+  ekf::State state(2, 4, ekf::Consistency::kStandard, 1, 2);
+  for (int pair = 0; pair < 2; ++pair) state.relax_errors(pair, 0.0);
+  const auto random_terms = [&random] {
+    ekf::ErrorTerms terms;
+    for (int pair = 0; pair < 2; ++pair) {
+      terms[static_cast<std::size_t>(pair)].pair = pair;
+      for (auto& entry : terms[static_cast<std::size_t>(pair)].J.reshaped()) entry = 0.1 * random.normal();
+    }
+    return terms;
+  };
+  const auto whole = [&state] {
+    const auto n = static_cast<Eigen::Index>(state.size());
+    Eigen::MatrixXd P(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        P(i, j) = state.covariance(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+    return P;
+  };
+  for (int step = 0; step < 10; ++step) {
+    const Eigen::MatrixXd before = whole();
+    const Pose2 from = state.pose().T_world_robot;
+    const Motion motion{{0.2, 0.01, 0.1 * random.normal()}, 1e-4 * Eigen::Matrix3d::Identity()};
+    const ekf::ErrorTerms terms = random_terms();
+    state.predict(motion, terms);
+    const auto n = before.rows();
+    Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
+    F.topLeftCorner<3, 3>() = compose_jacobian_left(from, motion.increment);
+    const Eigen::Matrix3d G = compose_jacobian_right(from);
+    for (int pair = 0; pair < 2; ++pair)
+      F.block<3, 2>(0, 3 + 2 * pair) = G * terms[static_cast<std::size_t>(pair)].J;
+    Eigen::MatrixXd after = F * before * F.transpose();
+    after.topLeftCorner<3, 3>() += G * motion.covariance * G.transpose();
+    EXPECT_TRUE(matrix_near(whole(), after, 1e-12)) << step;
+    if (step < 3) {
+      Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
+      G_pose.topLeftCorner<2, 2>().setIdentity();
+      state.add({1.0, step * 1.0, 0.0}, G_pose, 0.01 * Eigen::Matrix3d::Identity());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace waymark

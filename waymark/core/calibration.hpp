@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace waymark {
+
+/// What may always be wrong with the sensors of a robot, each as a deviation from what the config says.
+enum CalibrationIndex : Eigen::Index {
+  kSpeedScale,     ///< true distance = (1 + c) measured
+  kTurnScale,      ///< true turn = (1 + c) measured + bias dt
+  kTurnBias,       ///< rad/s while the robot moves
+  kRangeScale,     ///< range = (1 + c) distance + offset
+  kRangeOffset,    ///< m
+  kBearingOffset,  ///< rad
+  kCalibrationSize
+};
+
+using Calibration = Eigen::Matrix<double, kCalibrationSize, 1>;
+
+/// What was learnt of them.
+struct CalibrationEstimate {
+  Calibration mean = Calibration::Zero();
+  Calibration sigmas = Calibration::Zero();        ///< 0: was not estimated
+  Calibration prior_sigmas = Calibration::Zero();  ///< before anything was learnt
+
+  [[nodiscard]] bool is_estimated(CalibrationIndex index) const { return sigmas[index] > 0.0; }
+  /// Estimated, but what was measured depends on it so little that it is what it was assumed to be.
+  [[nodiscard]] bool is_untold(CalibrationIndex index) const {
+    constexpr double kTold = 0.9;
+    return is_estimated(index) && sigmas[index] > kTold * prior_sigmas[index];
+  }
+};
+
+}  // namespace waymark

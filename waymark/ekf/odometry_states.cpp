@@ -1,0 +1,65 @@
+#include "waymark/ekf/odometry_states.hpp"
+
+#include "waymark/core/angle.hpp"
+
+namespace waymark {
+
+OdometryErrors OdometryStateOptions::sigmas() const {
+  return {speed_scale_sigma, turn_scale_sigma, to_radians(turn_bias_sigma_degps)};
+}
+
+void describe(Schema& schema, OdometryStateOptions& o) {
+  schema.boolean(
+      "ekf.calibrate_odometry", o.estimate,
+      "estimate what is always wrong with the odometry: scales of speed and turning, and a turning "
+      "rate that is missing; the result is in calibration.yaml");
+  schema.real("ekf.speed_scale_sigma", o.speed_scale_sigma, {0.0, 1.0},
+              "standard deviation of the true distance per measured distance then; 0: it is 1");
+  schema.real("ekf.turn_scale_sigma", o.turn_scale_sigma, {0.0, 1.0},
+              "the same of the true turn per measured turn");
+  schema.real("ekf.turn_bias_sigma_degps", o.turn_bias_sigma_degps, {0.0, 100.0},
+              "the same of what the odometry turns too little while the robot moves, degrees per second");
+}
+
+namespace ekf {
+
+void OdometryStates::start(CompressedState& state) const {
+  for (int pair = first_pair_; pair < first_pair_ + pairs(); ++pair) state.relax_errors(pair, 0.0);
+}
+
+OdometryErrors OdometryStates::mean(const CompressedState& state) const {
+  const Eigen::Vector2d scales = state.errors(first_pair_);
+  const Eigen::Vector2d rate = state.errors(first_pair_ + 1);
+  return options_.sigmas().cwiseProduct(OdometryErrors(scales[0], scales[1], rate[0]));
+}
+
+void OdometryStates::predict(CompressedState& state, const Motion& motion) const {
+  if (!options_.estimate) {
+    state.predict(motion);
+    return;
+  }
+  const CorrectedIncrement step = corrected(motion.increment, motion.duration_s, mean(state));
+  const Eigen::Matrix3d J = step.J * options_.sigmas().asDiagonal();
+  ErrorTerms terms;
+  terms[0] = {first_pair_, J.leftCols<2>()};
+  terms[1].pair = first_pair_ + 1;
+  terms[1].J.col(0) = J.col(2);
+  state.predict({step.increment, motion.covariance, motion.duration_s}, terms);
+}
+
+CalibrationEstimate OdometryStates::calibration(const CompressedState& state) const {
+  CalibrationEstimate estimate;
+  if (!options_.estimate) return estimate;
+  static_assert(kSpeedScale == 0 && kTurnScale == 1 && kTurnBias == 2);
+  const OdometryErrors prior_sigmas = options_.sigmas();
+  const Eigen::Vector2d scales = state.errors_covariance(first_pair_, first_pair_).diagonal();
+  const double rate = state.errors_covariance(first_pair_ + 1, first_pair_ + 1)(0, 0);
+  estimate.mean.head<3>() = mean(state);
+  estimate.prior_sigmas.head<3>() = prior_sigmas;
+  estimate.sigmas.head<3>() =
+      prior_sigmas.cwiseProduct(OdometryErrors(scales[0], scales[1], rate).cwiseSqrt());
+  return estimate;
+}
+
+}  // namespace ekf
+}  // namespace waymark

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "waymark/core/calibration.hpp"
+#include "waymark/core/config.hpp"
+#include "waymark/core/motion.hpp"
+#include "waymark/ekf/compressed_state.hpp"
+#include "waymark/models/odometry_errors.hpp"
+
+namespace waymark {
+
+/// What may be wrong with the odometry always, and is estimated beside path and map.
+struct OdometryStateOptions {
+  bool estimate = false;
+  double speed_scale_sigma = 0.1;
+  double turn_scale_sigma = 0.1;
+  double turn_bias_sigma_degps = 0.1;
+
+  [[nodiscard]] OdometryErrors sigmas() const;
+};
+
+void describe(Schema& schema, OdometryStateOptions& options);
+
+namespace ekf {
+
+/// The errors of the odometry as states: constants with a prior, in two pairs of lasting errors, the fourth
+/// value of which stands for nothing.
+class OdometryStates {
+ public:
+  OdometryStates(const OdometryStateOptions& options, int first_pair)
+      : options_(options), first_pair_(first_pair) {}
+
+  /// Pairs that the state must have.
+  [[nodiscard]] int pairs() const { return options_.estimate ? 2 : 0; }
+  /// Before the first motion.
+  void start(CompressedState& state) const;
+  /// Moves the robot as the estimate corrects the odometry.
+  void predict(CompressedState& state, const Motion& motion) const;
+  [[nodiscard]] CalibrationEstimate calibration(const CompressedState& state) const;
+
+ private:
+  [[nodiscard]] OdometryErrors mean(const CompressedState& state) const;
+
+  OdometryStateOptions options_;
+  int first_pair_;
+};
+
+}  // namespace ekf
+}  // namespace waymark

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "waymark/core/calibration.hpp"
+#include "waymark/slam/config.hpp"
+
+namespace waymark::smooth {
+
+/// Something of the sensors that was estimated, under the config key which puts it in force.
+struct CalibratedKey {
+  std::string key;
+  double value = 0.0;
+  double sigma = 0.0;
+  bool is_untold = false;  ///< the value is what was assumed
+};
+
+/// Those that have a key and whose certainty is known.
+[[nodiscard]] std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate,
+                                                         const Config& config);
+
+/// The same as a config file.
+[[nodiscard]] std::string calibration_yaml(const CalibrationEstimate& estimate, const Config& config);
+
+}  // namespace waymark::smooth
