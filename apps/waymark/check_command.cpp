@@ -243,7 +243,8 @@ void add_check(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
+  command
+      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();
   request->flags.add_to(*command);
   command->add_flag("--json", request->verbosity.json,

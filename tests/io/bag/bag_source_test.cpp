@@ -232,6 +232,8 @@ TEST(BagSource, PassesOverDepthImagesAndMixesTheOthers) {
   ASSERT_EQ(images.size(), 1U);
   EXPECT_EQ((*images[0].second.pixels)(0, 0), (299 * 10 + 587 * 50 + 114 * 100 + 500) / 1000);
   EXPECT_THAT(source->notes(), Contains(HasSubstr("/a_depth is not used for images: its encoding '32FC1'")));
+  EXPECT_TRUE(source->info().only_pixels);
+  EXPECT_TRUE(source->info().identities) << "what is followed in pictures has them";
 }
 
 TEST(BagSource, AMosaicOfOneGreyStaysThatGreyWhereItsColoursAgree) {

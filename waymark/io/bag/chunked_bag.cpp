@@ -13,7 +13,7 @@ namespace {
 
 // A file is read in small steps from head to head, a chunk in large ones.
 constexpr std::size_t kOuterBlock = 16384;
-constexpr std::size_t kInnerBlock = 262144;
+constexpr std::size_t kInnerBlock = 1 << 20;
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 #include "waymark/io/bag/decompress.hpp"
 
 #include <algorithm>
-#include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -25,6 +25,9 @@ struct Progress {
   bool done = false;  ///< the frame is complete
 };
 
+/// As large as a block of LZ4 as rosbag writes it: what is there whole is not copied first.
+constexpr std::size_t kBlock = 1 << 20;
+
 /// A decompressor on top of a stream: feeds it block by block. `Codec` has a name and
 /// `Result<Progress> run(packed, into)`.
 template <class Codec>
@@ -47,18 +50,18 @@ class Decompressor final : public ByteStream {
 
  private:
   Result<void> refill() {
-    std::copy(input_.begin(), input_.end(), block_.begin());
-    const auto rest = std::span(block_).subspan(input_.size());
+    std::copy(input_.begin(), input_.end(), block_.get());
+    const auto rest = std::span(block_.get(), kBlock).subspan(input_.size());
     const auto count = rest.empty() ? Result<std::size_t>(0) : packed_->read(rest);
     if (!count) return count.error();
     if (*count == 0) return Error{fmt::format("its {} data are cut off", Codec::kName)};
-    input_ = std::span(block_).first(input_.size() + *count);
+    input_ = std::span(block_.get(), kBlock).first(input_.size() + *count);
     return {};
   }
 
   std::unique_ptr<ByteStream> packed_;
   Codec codec_;
-  std::array<char, 65536> block_;
+  std::unique_ptr<char[]> block_ = std::make_unique_for_overwrite<char[]>(kBlock);
   std::span<char> input_;
   bool done_ = false;
 };

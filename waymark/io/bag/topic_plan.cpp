@@ -308,7 +308,6 @@ class Planner {
     const bool has_images =
         std::ranges::any_of(plan_.used, [](const auto& used) { return used.second.order == 3; });
     plan_.info.only_pixels = has_images && !has_detections_;
-    plan_.info.identities = has_detections_ || !has_images;
     if (!has_images && !has_detections_)
       plan_.notes.emplace_back(
           "the bag shows no landmarks, in images or as detected markers: only dead reckoning");
