@@ -20,6 +20,11 @@ waymark_dependency(hwy CONFIG)
 waymark_dependency(ZLIB)
 waymark_dependency(PNG)
 waymark_dependency(JPEG)
-# Debian's libmatio-dev has neither a CMake package nor a .pc that works without HDF5's own; it is linked by its name.
-find_library(WAYMARK_MATIO matio REQUIRED)
-mark_as_advanced(WAYMARK_MATIO)
+waymark_dependency(BZip2)
+waymark_dependency(SQLite3)
+# Linked by their names: Debian's libmatio-dev has neither a CMake package nor a .pc that works without HDF5's own, and
+# its liblz4-dev and libzstd-dev have no CMake package that other systems have, too.
+foreach(library IN ITEMS matio lz4 zstd)
+  find_library(WAYMARK_${library} ${library} REQUIRED)
+  mark_as_advanced(WAYMARK_${library})
+endforeach()

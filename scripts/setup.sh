@@ -7,11 +7,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
-  libmatio-dev zlib1g-dev libpng-dev libjpeg-dev
+  libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev
 )
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git
   libopenmpi-dev openmpi-bin
+  python3-rosbag python3-nav-msgs python3-sensor-msgs python3-geometry-msgs lz4 zstd
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
 )
 

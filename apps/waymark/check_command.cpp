@@ -146,20 +146,40 @@ std::string advice(const Request& request, const Config& config, const LogInfo& 
                    const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
   if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
-    return "nothing can be run: there is no odometry (wheels.csv, velocity.csv, steering.csv or "
-           "odometry.csv)";
+    return log.topics.empty()
+               ? "nothing can be run: there is no odometry (wheels.csv, velocity.csv, steering.csv or "
+                 "odometry.csv)"
+               : "nothing can be run: there is no odometry (a topic of type nav_msgs/Odometry, "
+                 "sensor_msgs/JointState, geometry_msgs/TwistStamped, Twist or PoseStamped)";
   if (!has("observations") && !has("images")) return "only dead reckoning: there are no observations";
   if (log.only_pixels && !config.camera_known)
-    return "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like";
+    return log.topics.empty()
+               ? "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like"
+               : "nothing can be run: nobody knows what the camera is like; `waymark calibrate camera` makes "
+                 "a "
+                 "file that says it, for --set input.camera_file=FILE";
   std::string command = "waymark run " + request.input + " -o out";
   if (log.only_pixels) command += " --observe pixel";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
   return command;
 }
 
+double rate_hz(const LogTopic& topic, const LogInfo& log) {
+  return log.recorded_s > 0.0 ? static_cast<double>(topic.messages - 1) / log.recorded_s : 0.0;
+}
+
+void print_topics(const LogInfo& log) {
+  std::size_t width = 0;
+  for (const auto& topic : log.topics) width = std::max(width, topic.name.size() + topic.type.size() + 3);
+  for (const auto& topic : log.topics)
+    fmt::print("  {:<{}} {:>8} messages  {:>7.1f} Hz  {}\n", fmt::format("{} ({})", topic.name, topic.type),
+               width, topic.messages, rate_hz(topic, log), topic.use.empty() ? "not used" : topic.use);
+}
+
 void print_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
                 const std::string& next) {
   fmt::print("{} ({})\n", log.name, log.format);
+  print_topics(log);
   for (const auto& [name, stream] : contents.streams)
     fmt::print("  {:<16}{:>8} events  {:>8.1f} s  {:>7.1f} Hz  longest gap {:.2f} s\n", name, stream.events,
                stream.duration_s(), stream.rate_hz(), to_seconds(stream.longest_gap));
@@ -186,6 +206,12 @@ void print_json(const LogInfo& log, const Contents& contents, const std::vector<
                                {"duration_s", stream.duration_s()},
                                {"rate_hz", stream.rate_hz()},
                                {"longest_gap_s", to_seconds(stream.longest_gap)}});
+  for (const auto& topic : log.topics)
+    json["topics"].push_back({{"name", topic.name},
+                              {"type", topic.type},
+                              {"messages", topic.messages},
+                              {"rate_hz", rate_hz(topic, log)},
+                              {"use", topic.use}});
   json["observed"] = contents.measured;
   if (const auto& size = contents.image_size) json["image_size"] = {size->width_px, size->height_px};
   json["identities"] = nlohmann::ordered_json::object();
@@ -217,7 +243,8 @@ void add_check(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, a published data set, or sim:SCENARIO")
+  command
+      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();
   request->flags.add_to(*command);
   command->add_flag("--json", request->verbosity.json,

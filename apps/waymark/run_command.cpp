@@ -71,7 +71,8 @@ Result<void> run(const Request& request) {
 void add_run(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
   auto request = std::make_shared<Request>();
-  command->add_option("input", request->input, "a log folder, a published data set, or sim:SCENARIO")
+  command
+      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
       ->type_name("OUT");

@@ -35,11 +35,12 @@ struct OdometryPose {
   Pose2 T_odom_robot;
 };
 
-/// A picture: named by its file, to be loaded by who needs the pixels, or with its pixels where a simulator
-/// or a camera has them in memory.
+/// A picture: named by its file, to be loaded by who needs the pixels; or with its pixels where a simulator
+/// or a camera has them in memory; or with the bytes of its file (JPEG, PNG), as bags have them.
 struct Image {
   std::string file;
   std::shared_ptr<const GreyImage> pixels = nullptr;
+  std::shared_ptr<const std::string> encoded = nullptr;
 };
 
 /// Where the truth sensor really was. The heading may be unknown.

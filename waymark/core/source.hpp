@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,14 @@ struct TrueLandmark {
   double z_m = 0.0;
 };
 
+/// One of the streams that a recording consists of, used or not.
+struct LogTopic {
+  std::string name;
+  std::string type;
+  std::int64_t messages = 0;
+  std::string use;  ///< "odometry", ...; empty: it is not used
+};
+
 /// What a log says about itself before its first event.
 struct LogInfo {
   std::string name;
@@ -29,7 +38,9 @@ struct LogInfo {
   bool identities = true;    ///< some sighting says which landmark it is of
   bool only_pixels = false;  ///< what it observes is pixels alone: given ones, or images of a known camera
   std::optional<Eigen::Vector2d>
-      truth_sensor_m;  ///< where on the robot the truth was measured; empty: its origin
+      truth_sensor_m;                 ///< where on the robot the truth was measured; empty: its origin
+  std::vector<LogTopic> topics = {};  ///< of a bag; other logs have none
+  double recorded_s = 0.0;            ///< from the first to the last message of all topics
 };
 
 /// Anything that produces events: a reader, the simulator, a robot. Who reads it cannot tell which.

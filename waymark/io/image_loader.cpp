@@ -39,7 +39,9 @@ Result<std::optional<Event>> ImageLoader::next() {
 
 bool ImageLoader::load(Image& image) {
   if (image.pixels != nullptr) return true;
-  auto pixels = read_image(image.file, expected_);
+  auto pixels =
+      image.encoded ? decode_image(*image.encoded, image.file, expected_) : read_image(image.file, expected_);
+  image.encoded.reset();
   if (pixels) {
     image.pixels = std::make_shared<const GreyImage>(*std::move(pixels));
     return true;

@@ -10,7 +10,8 @@
 
 namespace waymark {
 
-/// A log whose images are read when their turn comes, one at a time: gives each image event its pixels.
+/// A log whose images are read, or unpacked, when their turn comes, one at a time: gives each image event its
+/// pixels.
 /// Images that cannot be read and those of another size than the camera's are skipped and counted.
 class ImageLoader final : public Source {
  public:

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "waymark/io/bag/bag_source.hpp"
+#include "waymark/io/bag/open_bag.hpp"
 #include "waymark/io/car_park.hpp"
 #include "waymark/io/log_folder.hpp"
 #include "waymark/io/lost_in_the_woods.hpp"
@@ -39,7 +41,8 @@ std::string some_content(const fs::path& folder) {
 Error not_a_log(const fs::path& folder) {
   return {fmt::format(
       "{} is a directory but no log: expected log.yaml with wheels.csv, velocity.csv, steering.csv or "
-      "odometry.csv; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat file of Plaza, "
+      "odometry.csv; or a bag's metadata.yaml; or MRCLAM's Barcodes.dat with RobotN_Odometry.dat; or a .mat "
+      "file of Plaza, "
       "lost-in-the-woods, Victoria Park or the car park; or PlazaN_DR.txt with PlazaN_TD.txt; or "
       "Indoor_UWB_Input.txt; or camera.dat with trajectory.dat and world.dat; found {}",
       folder.string(), some_content(folder))};
@@ -51,8 +54,8 @@ Error not_a_folder(const fs::path& file) {
       !plaza_text_runs(folder).empty())
     return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
   return {
-      fmt::format("{} is no log: expected a log folder, an MRCLAM directory, a .mat file of Plaza, "
-                  "lost-in-the-woods, Victoria Park or the car park, or Victoria Park's graph",
+      fmt::format("{} is no log: expected a log folder, a ROS bag, an MRCLAM directory, a .mat file of "
+                  "Plaza, lost-in-the-woods, Victoria Park or the car park, or Victoria Park's graph",
                   file.string())};
 }
 
@@ -88,6 +91,7 @@ Result<fs::path> choose_run(const fs::path& folder, const std::vector<fs::path>&
 }
 
 Result<std::unique_ptr<Source>> open_folder(const fs::path& folder, const InputOptions& options) {
+  if (bag::is_bag(folder)) return open_bag_source(folder, options.bag);
   if (is_log_folder(folder)) return open_log_folder(folder);
   if (is_mrclam(folder)) return open_mrclam(folder, {options.robot, options.fix_known_errors});
   if (is_uwb_labyrinth(folder)) return open_uwb_labyrinth(folder);
@@ -118,6 +122,7 @@ void describe(Schema& schema, InputOptions& options) {
       "input.pixel_noise_px", options.pixel_noise_px, {0.0, 100.0},
       "standard deviation of the noise that is added to points recorded without any (planar-mono-slam), "
       "px");
+  describe(schema, options.bag);
 }
 
 Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOptions& options) {
@@ -127,6 +132,7 @@ Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOpt
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
   if (fs::is_directory(status)) return open_folder(path, options);
   if (is_mat_file(path)) return open_mat_file(path, options);
+  if (bag::is_bag(path)) return open_bag_source(path, options.bag);
   if (is_victoria_park_graph(path)) return open_victoria_park_graph(path);
   return not_a_folder(path);
 }

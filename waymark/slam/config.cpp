@@ -1,5 +1,6 @@
 #include "waymark/slam/config.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "waymark/io/image_loader.hpp"
@@ -29,13 +30,21 @@ Result<void> apply(Schema& schema, const LogInfo& log) {
 /// What a filter does best where sightings have no identity.
 const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
 
+bool sets_mount(const Schema& schema) {
+  return std::ranges::any_of(schema.keys(), [&schema](const std::string& key) {
+    return key.starts_with("camera.mount_") && schema.was_set(key);
+  });
+}
+
 Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
   if (input.starts_with(kSimulationPrefix))
     return open_simulation(input.substr(kSimulationPrefix.size()), user);
-  auto config = resolve_config(user);
-  if (!config) return config.error();
-  config->input.seed = config->seed;
-  return open_source(input, config->input);
+  Config config;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  config.input.seed = config.seed;
+  if (sets_mount(schema)) config.input.bag.mount = config.camera.mount;
+  return open_source(input, config.input);
 }
 
 }  // namespace
