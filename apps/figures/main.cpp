@@ -19,6 +19,7 @@
 #include "figures/contact_sheet.hpp"
 #include "figures/desk.hpp"
 #include "figures/forest.hpp"
+#include "figures/initialise.hpp"
 #include "figures/observe.hpp"
 #include "figures/over_runs.hpp"
 #include "figures/room.hpp"
@@ -234,6 +235,7 @@ int main(int argc, char** argv) {
   waymark::add_consistency(app, status);
   waymark::add_contact_sheet(app, status);
   waymark::add_desk(app, status);
+  waymark::add_initialise(app, status);
   waymark::add_forest(app);
   waymark::add_observe(app);
   waymark::add_room(app, status);

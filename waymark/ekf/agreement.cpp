@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/LU>
@@ -45,6 +46,37 @@ double Agreement::cost_with(std::size_t i, const JointCovariance& S, std::span<c
     cost += d2 ? std::min(*d2, gate) : gate;
   }
   return cost;
+}
+
+Agreement::Rest Agreement::rest(const JointCovariance& S, std::span<const Eigen::Vector2d> nu, std::size_t i,
+                                std::span<const std::size_t> some) {
+  const Eigen::Matrix2d S_ii_inverse = block(S, i, i).inverse();
+  const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(2 * k); };
+  rest_nu_.clear();
+  for (std::size_t a = 0; a < some.size(); ++a) {
+    const Eigen::Matrix2d A = block(S, some[a], i) * S_ii_inverse;
+    rest_nu_.emplace_back(nu[some[a]] - A * nu[i]);
+    for (std::size_t b = 0; b <= a; ++b)
+      rest_S_.block<2, 2>(at(a), at(b)) = block(S, some[a], some[b]) - A * block(S, i, some[b]);
+  }
+  return {rest_S_.topLeftCorner(at(some.size()), at(some.size())), rest_nu_};
+}
+
+double Agreement::false_alarms(const JointCovariance& S, double own_gate, double gate,
+                               double area_px2) const {
+  double expected = 0.0;
+  double agreeing = 0.0;
+  for (std::size_t j = 0; j < best_.size(); ++j) {
+    if (j == hypothesis_) continue;
+    agreeing += best_[j];
+    const double anywhere =
+        std::min(std::numbers::pi * own_gate * std::sqrt(block(S, j, j).determinant()), area_px2);
+    const double here = std::numbers::pi * gate * std::sqrt(left_of(S, j, hypothesis_).determinant());
+    expected += std::min(1.0, here / anywhere);
+  }
+  const auto tried = static_cast<double>(best_.size());
+  if (!(agreeing > expected)) return tried;
+  return tried * std::exp(agreeing - expected + agreeing * std::log(expected / agreeing));
 }
 
 std::span<const char> Agreement::best(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,

@@ -23,12 +23,29 @@ class Agreement {
   using JointCovariance = State::JointCovariance;
 
   /// Room for so many sightings.
-  explicit Agreement(std::size_t capacity) : best_(capacity), tried_(capacity) {}
+  explicit Agreement(std::size_t capacity)
+      : best_(capacity), tried_(capacity), rest_S_(2 * capacity, 2 * capacity) {
+    rest_nu_.reserve(capacity);
+  }
 
   /// Index of the sighting with which the others were compared, after best() found one.
   [[nodiscard]] std::size_t hypothesis() const { return hypothesis_; }
   /// What is left of S_jj where sighting i is known: how far it may still lead the state.
   [[nodiscard]] static Eigen::Matrix2d left_of(const JointCovariance& S, std::size_t j, std::size_t i);
+
+  /// Joint covariance, lower triangle, and innovations of some sightings.
+  struct Rest {
+    JointCovariance S;
+    std::span<const Eigen::Vector2d> nu;
+  };
+  /// ... of those named by `some` where sighting i is known. Valid until the next call.
+  [[nodiscard]] Rest rest(const JointCovariance& S, std::span<const Eigen::Vector2d> nu, std::size_t i,
+                          std::span<const std::size_t> some);
+  /// How many sightings that look right in wrong places would agree as many with one of them: each anywhere
+  /// in its own ellipse of `gate`, or in `area_px2` where that is smaller (Desolneux, Moisan and Morel 2000).
+  /// After best(); a bound (Chernoff).
+  [[nodiscard]] double false_alarms(const JointCovariance& S, double own_gate, double gate,
+                                    double area_px2) const;
 
   /// Those that agree with the best of their own, itself within `own_gate`. One flag per sighting, all zero
   /// where none is within its gate. `S` holds the lower triangle for two rows per sighting. Valid until the
@@ -43,6 +60,8 @@ class Agreement {
   std::size_t hypothesis_ = 0;
   std::vector<char> best_;
   std::vector<char> tried_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rest_S_;
+  std::vector<Eigen::Vector2d> rest_nu_;
 };
 
 }  // namespace waymark::ekf

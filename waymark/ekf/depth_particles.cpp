@@ -20,6 +20,12 @@ void DepthParticles::restart() {
   }
 }
 
+std::vector<DepthParticles::Weighted> DepthParticles::weighted() const {
+  std::vector<Weighted> all;
+  for (const Particle& particle : particles_) all.push_back({particle.rho_per_m, particle.weight});
+  return all;
+}
+
 double DepthParticles::total() const {
   double sum = 0.0;
   for (const Particle& particle : particles_) sum += particle.weight;

@@ -51,6 +51,12 @@ class DepthParticles {
     });
   }
   [[nodiscard]] std::size_t size() const { return particles_.size(); }
+  /// What is believed, for people to look at: inverse depth (1/m) and weight of each particle. Allocates.
+  struct Weighted {
+    double rho_per_m;
+    double weight;
+  };
+  [[nodiscard]] std::vector<Weighted> weighted() const;
 
  private:
   struct Particle {

@@ -32,7 +32,9 @@ constexpr double kFairlySure = 0.1;
 constexpr double kWide_px = 15.0;
 /// From where on a landmark comes back that leads the state far, px, and how many must.
 constexpr double kFar_px = 6.0;
-constexpr int kWitnesses = 3;
+constexpr std::size_t kWitnesses = 3;
+/// Of the wrong agreements of landmarks that come back, in one picture.
+constexpr double kFalseAlarms = 1e-3;
 // A patch is recognised under this turn of the view and between these ratios of distances.
 const double kLeastCosine = std::cos(to_radians(45.0));
 constexpr double kNearest = 0.4, kFarthest = 2.5;
@@ -60,6 +62,20 @@ Eigen::Matrix3d ray_covariance(const Eigen::Matrix2d& xy_covariance, double rho_
   covariance.topLeftCorner<2, 2>() = xy_covariance;
   covariance(2, 2) = rho_sigma * rho_sigma;
   return covariance;
+}
+
+/// Trace of the innovation covariance of the k-th sighting.
+double width_px2(const ekf::State::JointCovariance& S, std::size_t k) {
+  const auto row = static_cast<Eigen::Index>(2 * k);
+  return S(row, row) + S(row + 1, row + 1);
+}
+
+/// Of those that agree, the one whose place was known best.
+std::size_t narrowest(const ekf::State::JointCovariance& S, std::span<const char> agrees) {
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < agrees.size(); ++k)
+    if (agrees[k] != 0 && (agrees[best] == 0 || width_px2(S, k) < width_px2(S, best))) best = k;
+  return best;
 }
 
 }  // namespace
@@ -107,6 +123,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
       map_(options.capacity, kMostAnchors, ekf.consistency, threads, options.vibration_deg > 0.0 ? 1 : 0),
       management_(ekf.evict, options.capacity),
       agreement_(ekf::State::kMaxSightings),
+      return_(ekf::State::kMaxSightings),
       gate_(chi2_quantile(options.gate_probability, 2)),
       agreement_gate_(chi2_quantile(kAgreement, 2)),
       candidates_(static_cast<std::size_t>(options.most_candidates),
@@ -118,6 +135,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
   sightings_.reserve(ekf::State::kMaxSightings);
   nus_.reserve(ekf::State::kMaxSightings);
   seen_.reserve(ekf::State::kMaxSightings);
+  returning_.reserve(ekf::State::kMaxSightings);
   used_.reserve(ekf::State::kMaxSightings);
   told_.reserve(ekf::State::kMaxSightings);
   refined_.reserve(ekf::State::kMaxSightings);
@@ -447,26 +465,48 @@ std::optional<Eigen::Matrix2d> PixelSlam::settle(std::size_t index, const Observ
   return S;
 }
 
-/// Those of the block that do not agree are left as gated. A landmark that may still be anywhere when another
-/// one is known comes back after long: it leads the state far, and needs others that come back with it.
+/// Those of the block that do not agree are left as gated. Where the search was so wide that something that
+/// looks right is easily found, one or two say nothing, not even against themselves.
 void PixelSlam::update_agreeing(std::span<const Observation> observations) {
   const auto S = map_.state().joint_innovation_covariance(sightings_);
   const auto agrees = agreement_.best(S, nus_, gate_, agreement_gate_);
-  const bool convincing = is_convincing(S, agrees);
-  const auto returns = [&](std::size_t k) {
-    return agrees[k] != 0 && k != agreement_.hypothesis() &&
-           ekf::Agreement::left_of(S, k, agreement_.hypothesis()).trace() > kFar_px * kFar_px;
-  };
-  int returning = 0;
-  for (std::size_t k = 0; k < seen_.size(); ++k) returning += returns(k);
-  for (std::size_t k = 0; k < seen_.size(); ++k) {
-    Outcome& outcome = innovations_[seen_[k]].outcome;
+  const auto count = static_cast<std::size_t>(std::ranges::count(agrees, char{1}));
+  const std::size_t known = narrowest(S, agrees);
+  const bool lost = count < kWitnesses && width_px2(S, known) > kFar_px * kFar_px;
+  const bool convincing = !lost && (count >= kWitnesses || 2 * count > agrees.size());
+  for (std::size_t k = 0; k < seen_.size(); ++k)
     if (!convincing || agrees[k] == 0)
-      outcome = Outcome::kGated;
-    else if (returns(k) && returning < kWitnesses)
-      outcome = Outcome::kUnusable;
-  }
+      innovations_[seen_[k]].outcome = lost ? Outcome::kUnusable : Outcome::kGated;
+  if (convincing) judge_returning(S, agrees, known);
   update_matched(observations);
+}
+
+/// A landmark that may still be anywhere when another one is known comes back after long: it leads the state
+/// far, and needs others that come back with it. Where they may be very far, so many must agree on where
+/// that what looks right in wrong places hardly would.
+void PixelSlam::judge_returning(const ekf::State::JointCovariance& S, std::span<const char> agrees,
+                                std::size_t known) {
+  returning_.clear();
+  double widest_px2 = 0.0;
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
+    if (agrees[k] == 0 || k == known) continue;
+    const double left_px2 = ekf::Agreement::left_of(S, k, known).trace();
+    if (left_px2 <= kFar_px * kFar_px) continue;
+    returning_.push_back(k);
+    widest_px2 = std::max(widest_px2, left_px2);
+  }
+  if (returning_.size() >= kWitnesses && widest_px2 <= kWide_px * kWide_px) return;
+  if (returning_.size() >= kWitnesses) {
+    const auto rest = agreement_.rest(S, nus_, known, returning_);
+    const auto together = return_.best(rest.S, rest.nu, gate_, agreement_gate_);
+    if (return_.false_alarms(rest.S, gate_, agreement_gate_, camera_.width_px() * camera_.height_px()) <
+        kFalseAlarms) {
+      for (std::size_t i = 0; i < returning_.size(); ++i)
+        if (together[i] == 0) innovations_[seen_[returning_[i]]].outcome = Outcome::kGated;
+      return;
+    }
+  }
+  for (const std::size_t k : returning_) innovations_[seen_[k]].outcome = Outcome::kUnusable;
 }
 
 /// As in the article: each by itself.
@@ -488,16 +528,6 @@ void PixelSlam::update_matched(std::span<const Observation> observations) {
   sightings_.resize(used_.size());
   if (apply(observations)) return;
   for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
-}
-
-/// What looks right in the wrong place agrees with hardly anything: most of the block must agree, and several
-/// where the search was so wide that something that looks right is easily found.
-bool PixelSlam::is_convincing(const ekf::State::JointCovariance& S, std::span<const char> agrees) {
-  const auto count = static_cast<std::size_t>(std::ranges::count_if(agrees, [](char a) { return a != 0; }));
-  bool is_wide = false;
-  for (Eigen::Index row = 0; row + 1 < S.rows(); row += 2)
-    is_wide |= S(row, row) + S(row + 1, row + 1) > kWide_px * kWide_px;
-  return count >= (is_wide ? 3U : 1U) && (count >= 3 || 2 * count > agrees.size());
 }
 
 /// Updates the state with the sightings of the observations used_, linearised anew where that matters: a ray

@@ -133,7 +133,7 @@ class PixelSlam final : public Filter {
   [[nodiscard]] std::optional<Eigen::Matrix2d> settle(std::size_t index, const Observation& observation,
                                                       const CameraPose& here);
   void update_agreeing(std::span<const Observation> observations);
-  [[nodiscard]] static bool is_convincing(const ekf::State::JointCovariance& S, std::span<const char> agrees);
+  void judge_returning(const ekf::State::JointCovariance& S, std::span<const char> agrees, std::size_t known);
   void update_gated(std::span<const Observation> observations);
   void update_matched(std::span<const Observation> observations);
   [[nodiscard]] bool apply(std::span<const Observation> observations);
@@ -162,6 +162,7 @@ class PixelSlam final : public Filter {
   ekf::PixelMap map_;
   ekf::MapManagement management_;
   ekf::Agreement agreement_;
+  ekf::Agreement return_;  ///< of those that come back after long
   double gate_;
   double agreement_gate_;
   std::vector<Candidate> candidates_;
@@ -172,6 +173,7 @@ class PixelSlam final : public Filter {
   std::vector<Innovation> innovations_;
   std::vector<ekf::Sighting> sightings_;
   std::vector<Eigen::Vector2d> nus_;
+  std::vector<std::size_t> returning_;   // of the block, that come back after long
   std::vector<std::size_t> seen_;        // the observations of the block
   std::vector<ekf::PoseSighting> told_;  // what each of the block told about the pose
   std::vector<std::size_t> used_;        // those that are in the update

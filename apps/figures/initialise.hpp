@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace waymark {
+
+/// `initialise`: depth particles of new corners, picture by picture, where a hand holds the camera.
+void add_initialise(CLI::App& app, int& status);
+
+}  // namespace waymark
