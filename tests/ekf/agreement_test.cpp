@@ -142,6 +142,53 @@ TEST(Agreement, WhatIsLeftOfASightingIsItsConditionalCovariance) {
   EXPECT_TRUE(Agreement::left_of(picture.S, 1, 0).isApprox(expected, 1e-12));
 }
 
+TEST(Agreement, TheRestIsWhatRemainsOfSomeWhereOneIsKnown) {
+  RandomStream random(7, StreamPurpose::kWorld);
+  Agreement agreement(32);
+  const Picture picture = random_picture(random, 8);
+  const std::vector<std::size_t> some{0, 2, 7};
+  constexpr int kKnown = 3;
+  const Eigen::Matrix2d S_ii = picture.S.block<2, 2>(2 * kKnown, 2 * kKnown);
+  const Eigen::MatrixXd K = picture.S.middleCols<2>(2 * kKnown) * S_ii.inverse();
+  const Eigen::MatrixXd after = picture.S - K * S_ii * K.transpose();
+  const auto rest = agreement.rest(picture.S, picture.nu, kKnown, some);
+  ASSERT_EQ(rest.S.rows(), 6);
+  for (std::size_t a = 0; a < some.size(); ++a) {
+    const auto at = static_cast<Eigen::Index>(2 * some[a]), row = static_cast<Eigen::Index>(2 * a);
+    EXPECT_LT((rest.nu[a] - (picture.nu[some[a]] - K.middleRows<2>(at) * picture.nu[kKnown])).norm(), 1e-9);
+    for (std::size_t b = 0; b <= a; ++b) {
+      const auto other = static_cast<Eigen::Index>(2 * some[b]), column = static_cast<Eigen::Index>(2 * b);
+      EXPECT_LT((rest.S.block<2, 2>(row, column) - after.block<2, 2>(at, other)).norm(), 1e-9);
+    }
+  }
+}
+
+/// Part of the pictures in which those that agree are said to do so by chance less than once in twenty.
+double convincing(RandomStream& random, bool wrong_places) {
+  constexpr int kPictures = 1000, kSightings = 10;
+  constexpr double kAnywhere_px2 = 1e9;
+  Agreement agreement(32);
+  int convinced = 0;
+  for (int k = 0; k < kPictures; ++k) {
+    Picture picture = random_picture(random, kSightings);
+    for (int i = 0; wrong_places && i < kSightings; ++i) {
+      const double radius = std::sqrt(kOwnGate * random.uniform()), angle = random.uniform(0.0, 6.283185307);
+      const Eigen::Matrix2d L = picture.S.block<2, 2>(2 * i, 2 * i).llt().matrixL();
+      picture.nu[static_cast<std::size_t>(i)] =
+          L * Eigen::Vector2d(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    static_cast<void>(agreement.best(picture.S, picture.nu, kOwnGate, kGate));
+    convinced += agreement.false_alarms(picture.S, kOwnGate, kGate, kAnywhere_px2) < 0.05;
+  }
+  return static_cast<double>(convinced) / kPictures;
+}
+
+TEST(Agreement, WrongPlacesHardlyEverAgreeAsConvincinglyAsRightOnes) {
+  RandomStream random(8, StreamPurpose::kWorld);
+  EXPECT_LT(convincing(random, true), 0.05);
+  EXPECT_GT(convincing(random, false), 0.8);
+}
+
 TEST(Agreement, WhatIsNotPositiveDefiniteAgreesWithNothing) {
   Agreement agreement(4);
   Picture picture{RowMajor::Identity(6, 6), {{0.1, 0.0}, {0.1, 0.0}, {0.1, 0.0}}};
