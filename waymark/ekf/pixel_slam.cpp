@@ -570,7 +570,7 @@ bool PixelSlam::relinearize(std::span<const Observation> observations) {
   return true;
 }
 
-/// High-innovation inliers: what did not agree, but fits where the others have led.
+/// High-innovation inliers: what did not agree, but fits where the others have led, if these tell its place.
 void PixelSlam::rescue(std::span<const Observation> observations) {
   const CameraPose here = camera_pose();
   const std::size_t count = seen_.size();
@@ -582,9 +582,10 @@ void PixelSlam::rescue(std::span<const Observation> observations) {
     Innovation& innovation = innovations_[index];
     if (innovation.outcome != Outcome::kGated) continue;
     const double nis_before = innovation.nis;
-    if (!settle(index, observations[index], here)) continue;
+    const auto S = settle(index, observations[index], here);
+    if (!S) continue;
     seen_.pop_back();
-    if (innovation.nis <= gate_) {
+    if (innovation.nis <= gate_ && S->trace() <= kFar_px * kFar_px) {
       innovation.outcome = Outcome::kMatched;
       used_.push_back(index);
     } else {
