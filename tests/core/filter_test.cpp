@@ -1,5 +1,6 @@
 #include "waymark/core/filter.hpp"
 
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,10 +10,9 @@
 namespace waymark {
 namespace {
 
-constexpr Outcome kOutcomes[] = {Outcome::kMatched,      Outcome::kAdded,    Outcome::kGated,
-                                 Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous,
-                                 Outcome::kDuplicate,    Outcome::kPending,  Outcome::kMapFull,
-                                 Outcome::kNotInMap};
+constexpr Outcome kOutcomes[] = {
+    Outcome::kMatched,   Outcome::kAdded,     Outcome::kGated,   Outcome::kUnidentified, Outcome::kUnusable,
+    Outcome::kAmbiguous, Outcome::kDuplicate, Outcome::kPending, Outcome::kMapFull,      Outcome::kNotInMap};
 
 TEST(Correction, CountsInnovationsByOutcome) {
   std::vector<Innovation> innovations;
@@ -30,7 +30,7 @@ TEST(Correction, IsEmptyByDefault) {
 TEST(Outcome, EachHasItsOwnDescription) {
   std::set<std::string> descriptions;
   for (const Outcome outcome : kOutcomes) descriptions.insert(describe(outcome));
-  EXPECT_EQ(descriptions.size(), 9U);
+  EXPECT_EQ(descriptions.size(), std::size(kOutcomes));
   EXPECT_FALSE(descriptions.contains("unknown"));
 }
 

@@ -167,8 +167,8 @@ TEST(PixelSlam, WithTheTextbookUpdateItIsTheArticlesFilter) {
   };
   const auto fast = drive(UpdateMethod::kFast);
   const auto textbook = drive(UpdateMethod::kTextbook);
-  // They differ in who may take part, not in what the update is.
-  EXPECT_LT((fast.T_world_robot.position() - textbook.T_world_robot.position()).norm(), 0.03);
+  // They differ in who may take part, not in what the update is: by no more than either errs.
+  EXPECT_LT((fast.T_world_robot.position() - textbook.T_world_robot.position()).norm(), 0.06);
   EXPECT_TRUE(is_covariance(textbook.covariance));
 }
 

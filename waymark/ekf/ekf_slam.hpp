@@ -48,8 +48,8 @@ struct EkfOptions {
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
   UpdateMethod update = UpdateMethod::kFast;
   OdometryStateOptions odometry;  ///< with which a map is not compressed
-  int region = 64;  ///< landmarks of a compressed map that are kept up to date at every step
-  int loaded = 0;   ///< landmarks that load() will bring: they are the first region of a compressed map
+  int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
+  int loaded = 0;  ///< landmarks that load() will bring: they are the first region of a compressed map
 };
 
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.

@@ -21,8 +21,8 @@ EkfOptions ekf_options(const Config& config) {
 std::unique_ptr<Filter> make_planar_ekf(const Config& config, const std::optional<MapState>& start) {
   const auto T_robot_sensor = config.sensor.T_robot_sensor();
   if (config.map.localize && start)
-    return std::make_unique<Localizer>(*start, ekf_options(config), config.gate, T_robot_sensor, config.threads,
-                                       config.sensor.errors, unnamed(config));
+    return std::make_unique<Localizer>(*start, ekf_options(config), config.gate, T_robot_sensor,
+                                       config.threads, config.sensor.errors, unnamed(config));
   EkfOptions options = ekf_options(config);
   if (start) options.loaded = static_cast<int>(start->ids.size());
   auto filter = std::make_unique<EkfSlam>(options, config.gate, T_robot_sensor, config.threads,
