@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -30,9 +31,9 @@ std::optional<Eigen::VectorXd> misfit(const WideAngleLens& lens, const HandHeld&
 /// The normal equations of a bundle: six numbers a camera but the first, one a ray.
 class Bundle {
  public:
-  Bundle(const WideAngleLens& lens, std::span<HandHeld> cameras, std::span<const KnownTrack> known,
+  Bundle(WideAngleLens lens, std::span<HandHeld> cameras, std::span<const KnownTrack> known,
          std::span<RayTrack> tracks)
-      : lens_(lens), cameras_(cameras), known_(known), tracks_(tracks) {}
+      : lens_(std::move(lens)), cameras_(cameras), known_(known), tracks_(tracks) {}
 
   /// Cost and, where asked for, information matrix and gradient at the present estimate.
   double linearize(bool with_derivatives) {

@@ -311,10 +311,10 @@ Result<std::string> tile_svg(const Glance& glance, const GreyImage& picture) {
   double most = 0.0;
   for (const auto& [place, weight] : glance.particles) most = std::max(most, weight);
   for (const auto& [place, weight] : glance.particles)
-    svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"#ffd500\"/>", place.x(),
-                       place.y(), 0.15 + 0.75 * weight / most);
+    svg += fmt::format(R"(<circle cx="{:.2f}" cy="{:.2f}" r="{:.2f}" fill="#ffd500"/>)", place.x(), place.y(),
+                       0.15 + 0.75 * weight / most);
   if (glance.found)
-    svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.6\" fill=\"none\" stroke=\"#e8112d\"/>",
+    svg += fmt::format(R"(<circle cx="{:.2f}" cy="{:.2f}" r="1.6" fill="none" stroke="#e8112d"/>)",
                        glance.found->x(), glance.found->y());
   return svg + "</svg>";
 }

@@ -57,9 +57,9 @@ Agreement::Rest Agreement::rest(const JointCovariance& S, std::span<const Eigen:
     const Eigen::Matrix2d A = block(S, some[a], i) * S_ii_inverse;
     rest_nu_.emplace_back(nu[some[a]] - A * nu[i]);
     for (std::size_t b = 0; b <= a; ++b)
-      rest_S_.block<2, 2>(at(a), at(b)) = block(S, some[a], some[b]) - A * block(S, i, some[b]);
+      rest_covariance_.block<2, 2>(at(a), at(b)) = block(S, some[a], some[b]) - A * block(S, i, some[b]);
   }
-  return {rest_S_.topLeftCorner(at(some.size()), at(some.size())), rest_nu_};
+  return {rest_covariance_.topLeftCorner(at(some.size()), at(some.size())), rest_nu_};
 }
 
 double Agreement::false_alarms(const JointCovariance& S, double own_gate, double gate,

@@ -24,7 +24,7 @@ class Agreement {
 
   /// Room for so many sightings.
   explicit Agreement(std::size_t capacity)
-      : best_(capacity), tried_(capacity), rest_S_(2 * capacity, 2 * capacity) {
+      : best_(capacity), tried_(capacity), rest_covariance_(2 * capacity, 2 * capacity) {
     rest_nu_.reserve(capacity);
   }
 
@@ -60,7 +60,7 @@ class Agreement {
   std::size_t hypothesis_ = 0;
   std::vector<char> best_;
   std::vector<char> tried_;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rest_S_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rest_covariance_;
   std::vector<Eigen::Vector2d> rest_nu_;
 };
 
