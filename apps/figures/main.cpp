@@ -19,6 +19,7 @@
 #include "figures/contact_sheet.hpp"
 #include "figures/desk.hpp"
 #include "figures/forest.hpp"
+#include "figures/markers.hpp"
 #include "figures/observe.hpp"
 #include "figures/over_runs.hpp"
 #include "figures/room.hpp"
@@ -235,6 +236,7 @@ int main(int argc, char** argv) {
   waymark::add_contact_sheet(app, status);
   waymark::add_desk(app, status);
   waymark::add_forest(app);
+  waymark::add_markers(app, status);
   waymark::add_observe(app);
   waymark::add_room(app, status);
   CLI11_PARSE(app, argc, argv);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drawn_marker.hpp"
+
 namespace waymark::markers {
 namespace {
 
@@ -15,6 +17,24 @@ TEST(MarkerDetector, IsMadeForEveryDictionaryThatThisBuildCanFind) {
     if (!detector.ok()) {
       EXPECT_THAT(detector.error().message, HasSubstr("build again"));
     }
+  }
+}
+
+/// The simulator's own table of patterns is that of the dictionary.
+TEST(MarkerDetector, ReadsEveryMarkerThatTheSimulatorPrints) {
+  if (!can_detect(MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
+  const auto detector = *make_marker_detector(*find_marker_dictionary("4x4_50"));
+  const Camera camera(test::marker_camera());
+  RandomStream random(1, StreamPurpose::kWorld);
+  for (int number = 0; number < sim::kMarkerPatterns; ++number) {
+    const MarkerPose pose = test::random_marker_pose(random, 0.6);
+    GreyImage image(640, 480, 120);
+    test::draw_marker(image, camera, pose, 0.2, number);
+    const auto found = detector->detect(image);
+    ASSERT_EQ(found.size(), 1U) << number;
+    EXPECT_EQ(found[0].id, number);
+    const Corners truth = test::corners_of(camera, pose, 0.2);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((found[0].corners_px[i] - truth[i]).norm(), 2.0) << number;
   }
 }
 

@@ -26,7 +26,7 @@ class ArucoDetector final : public MarkerDetector {
       : dictionary_(cv::aruco::getPredefinedDictionary(opencv_number(dictionary))),
         parameters_(cv::aruco::DetectorParameters::create()) {
     cv::setNumThreads(1);
-    parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
+    parameters_->cornerRefinementMethod = cv::aruco::CORNER_REFINE_NONE;
   }
 
   std::vector<Marker> detect(const ImageView& image) override {
@@ -35,7 +35,11 @@ class ArucoDetector final : public MarkerDetector {
                          static_cast<std::size_t>(image.stride));
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> ids;
-    cv::aruco::detectMarkers(pixels, dictionary_, corners, ids, parameters_);
+    try {
+      cv::aruco::detectMarkers(pixels, dictionary_, corners, ids, parameters_);
+    } catch (const cv::Exception&) {
+      return {};  // a picture that it cannot digest shows no markers
+    }
     std::vector<Marker> found;
     for (std::size_t i = 0; i < ids.size(); ++i) found.push_back(marker(ids[i], corners[i]));
     std::ranges::sort(found, {}, [](const Marker& each) {

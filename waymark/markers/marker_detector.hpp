@@ -1,23 +1,20 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/result.hpp"
+#include "waymark/markers/corners.hpp"
 #include "waymark/markers/marker_dictionary.hpp"
 
 namespace waymark::markers {
 
-/// A marker in a picture: the corners of its black square, clockwise from the upper left of the pattern, in
-/// pixels with the centre of the first pixel at (0, 0).
+/// A marker in a picture, its corners to about a pixel; the centre of the first pixel is at (0, 0).
 struct Marker {
   std::int32_t id = -1;
-  std::array<Eigen::Vector2d, 4> corners_px;
+  Corners corners_px;
 };
 
 /// Finds the markers of one dictionary. Not to be called from two threads at once; starts none.

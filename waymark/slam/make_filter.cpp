@@ -18,6 +18,7 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config) {
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   switch (config.observe) {
     case Observe::kRangeBearing:
+    case Observe::kMarkers:
       return std::unique_ptr<Filter>(std::make_unique<EkfSlam>(config.ekf, config.gate,
                                                                config.sensor.T_robot_sensor(), config.threads,
                                                                config.sensor.errors, unnamed(config)));
@@ -38,7 +39,7 @@ Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
   if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
     return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
   const bool by_likelihood = config.associate == Association::kMl;
-  if (by_likelihood && config.observe != Observe::kRangeBearing)
+  if (by_likelihood && (config.observe == Observe::kRange || config.observe == Observe::kBearing))
     return Error{
         "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
   return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
@@ -57,6 +58,11 @@ std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& fil
   if (pixels == nullptr) return nullptr;
   return std::make_unique<CameraFrontEnd>(*pixels, config.tracker, config.search, Camera(config.camera),
                                           config.threads);
+}
+
+Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& config) {
+  if (config.observe != Observe::kMarkers) return std::unique_ptr<MarkerFrontEnd>();
+  return MarkerFrontEnd::make(config.markers, Camera(config.camera));
 }
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }

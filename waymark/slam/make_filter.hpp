@@ -14,6 +14,9 @@ namespace waymark {
 /// What looks into pictures for a filter over pixels, which must outlive it; null for any other filter.
 [[nodiscard]] std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter);
 
+/// What finds markers in pictures where they are asked for, or why it cannot; null where they are not.
+[[nodiscard]] Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& config);
+
 [[nodiscard]] const char* filter_name(FilterKind kind);
 
 }  // namespace waymark
