@@ -70,6 +70,20 @@ TEST_F(MarkerFrontEndTest, TrustsNeitherOfTwoWithOneNumber) {
   EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("marker 3 is twice in 1 pictures")));
 }
 
+TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
+  markers::MarkerOptions options = marker_options();
+  options.confirm = 3;
+  const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
+  const auto with = picture_of({{1, at(0.0, 2.0)}, {2, at(0.4, 2.0)}}),
+             without = picture_of({{1, at(0.0, 2.0)}});
+  EXPECT_THAT(seen_in(*front_end, with), IsEmpty());
+  EXPECT_THAT(seen_in(*front_end, without), IsEmpty());
+  EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
+  for (int i = 0; i < 20; ++i) EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
+  EXPECT_THAT(seen_in(*front_end, with), ElementsAre(1));  // 2 begins anew
+  EXPECT_THAT(front_end->notes(), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
+}
+
 TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   const auto first = picture_of({{1, at(0.0, 2.0)}}), second = picture_of({{2, at(0.0, 2.0)}});

@@ -54,6 +54,8 @@ void describe(Schema& schema, MarkerOptions& o) {
               "standard deviation of how the camera shakes on its robot, degrees");
   schema.real("markers.max_tilt_deg", o.max_tilt_deg, {0.0, 90.0},
               "a marker that is turned further from the camera is not used, degrees");
+  schema.integer("markers.confirm", o.confirm, {1, 1000},
+                 "pictures close together that must show a new identity before it is believed");
   schema.boolean("markers.own_thread", o.own_thread,
                  "find markers on a thread of its own, ahead of the filter; the result is the same");
 }

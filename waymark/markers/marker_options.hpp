@@ -18,6 +18,7 @@ struct MarkerOptions {
   double side_sigma_px = 0.08;    ///< of one point on a side
   double mount_sigma_deg = 0.05;  ///< of the camera on its robot from picture to picture
   double max_tilt_deg = 75.0;     ///< more edge-on markers are not used
+  int confirm = 1;                ///< pictures that must show an identity before it is believed
   bool own_thread = true;         ///< detection runs ahead of the filter
 };
 

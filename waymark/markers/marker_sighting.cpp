@@ -17,6 +17,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// Four corners of a square leave two degrees of freedom for their misfit. Blur adds to the noise of points
+// that are seen at a slant, hence a multiple of the chi-square quantile; a side that is half hidden gives
+// hundreds.
+constexpr double kMisfitMax = 40.0;
+
 }  // namespace
 
 const char* describe(Refusal refusal) {
@@ -64,6 +69,7 @@ std::variant<Observation, Refusal> MarkerSighter::sight(const RefinedCorners& co
   if (!poses) return Refusal::kUnclear;
   if (is_edge_on(poses->best)) return Refusal::kEdgeOn;
   const double variance = options_.side_sigma_px * options_.side_sigma_px;
+  if (poses->best.error > kMisfitMax * variance) return Refusal::kUnclear;
   const RangeBearingEstimate seen = mixture(estimate(poses->best), estimate(poses->other),
                                             (poses->other.error - poses->best.error) / variance);
   if (!seen.covariance.allFinite()) return Refusal::kUnclear;

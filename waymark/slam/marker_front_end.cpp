@@ -76,6 +76,7 @@ Result<std::unique_ptr<MarkerFrontEnd>> MarkerFrontEnd::make(const markers::Mark
 MarkerFrontEnd::MarkerFrontEnd(const markers::MarkerOptions& options, const markers::MarkerSet& set,
                                const Camera& camera, std::unique_ptr<markers::MarkerDetector> detector)
     : camera_(camera),
+      confirm_(options.confirm),
       sighter_(camera, options, set),
       check_(set.dictionary),
       finder_(std::move(detector), options.own_thread) {}
@@ -90,6 +91,7 @@ std::span<const Observation> MarkerFrontEnd::see(const Picture& picture) {
   BlockTimer timer(blocks_);
   measure(picture, finds.markers);
   refuse_duplicates();
+  hold_back_new();
   timer.finish(1);
   return sightings_;
 }
@@ -122,6 +124,19 @@ void MarkerFrontEnd::refuse_duplicates() {
   }
 }
 
+/// What a wall happens to show of a marker does not last.
+void MarkerFrontEnd::hold_back_new() {
+  constexpr std::int64_t kGapMax = 15;  // pictures
+  ++pictures_;
+  std::erase_if(sightings_, [this](const Observation& each) {
+    Trial& trial = trials_[*each.id];
+    if (trial.sightings >= confirm_) return false;
+    if (pictures_ - trial.last_picture > kGapMax) trial.sightings = 0;
+    trial.last_picture = pictures_;
+    return ++trial.sightings < confirm_;
+  });
+}
+
 std::vector<std::string> MarkerFrontEnd::notes() const {
   std::vector<std::string> lines;
   if (auto verdict = check_.verdict()) lines.push_back(*std::move(verdict));
@@ -129,6 +144,10 @@ std::vector<std::string> MarkerFrontEnd::notes() const {
     if (refused_[i] > 0)
       lines.push_back(fmt::format("{} sightings of markers not used: {}", refused_[i],
                                   markers::describe(static_cast<markers::Refusal>(i))));
+  for (const auto& [id, trial] : trials_)
+    if (trial.sightings < confirm_)
+      lines.push_back(
+          fmt::format("marker {} was seen too seldom to be believed (markers.confirm)", id.number));
   for (const auto& [id, pictures] : duplicates_)
     lines.push_back(
         fmt::format("marker {} is twice in {} pictures: print every number once", id.number, pictures));

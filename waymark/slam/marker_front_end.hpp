@@ -92,13 +92,23 @@ class MarkerFrontEnd {
 
   void measure(const Picture& picture, std::span<const markers::Marker> found);
   void refuse_duplicates();
+  void hold_back_new();
+
+  /// Of an identity that is not believed yet.
+  struct Trial {
+    int sightings = 0;
+    std::int64_t last_picture = 0;
+  };
 
   Camera camera_;
+  int confirm_;
   markers::MarkerSighter sighter_;
   markers::DictionaryCheck check_;
   std::vector<Observation> sightings_;
   std::array<std::int64_t, markers::kRefusals> refused_{};
   std::map<LandmarkId, std::int64_t> duplicates_;  ///< pictures that show an identity twice
+  std::int64_t pictures_ = 0;
+  std::map<LandmarkId, Trial> trials_;
   FunctionBlocks blocks_{"find markers", "measure markers"};
   MarkerFinder finder_;  ///< last, so that its thread ends before what it works on
 };
