@@ -22,6 +22,8 @@ function(waymark_find_modules name header)
   set(WAYMARK_${name}_LIBRARIES "${paths}" PARENT_SCOPE)
 endfunction()
 
+set(WAYMARK_ARUCO_FOUND FALSE)
+set(WAYMARK_APRILTAG_FOUND FALSE)
 if(WAYMARK_WITH_OPENCV)
   waymark_find_modules(ARUCO opencv2/aruco.hpp opencv_aruco opencv_calib3d opencv_imgproc opencv_core)
   if(NOT WAYMARK_ARUCO_FOUND)
