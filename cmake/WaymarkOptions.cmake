@@ -4,6 +4,8 @@ option(WAYMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(WAYMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(WAYMARK_BUILD_BENCH "Build the micro-benchmarks" OFF)
 option(WAYMARK_BUILD_EXAMPLES "Test that the examples build and run against the installed library" ON)
+option(WAYMARK_WITH_OPENCV "Find ArUco markers in pictures, by OpenCV where it is installed" ON)
+option(WAYMARK_WITH_APRILTAG "Find AprilTags in pictures, by libapriltag where it is installed" ON)
 option(WAYMARK_COVERAGE "Instrument for coverage" OFF)
 set(WAYMARK_SANITIZE "" CACHE STRING "Sanitizers, for example \"address;undefined\" or \"thread\"")
 set(WAYMARK_DATA_DIR "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH

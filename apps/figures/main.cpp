@@ -20,6 +20,7 @@
 #include "figures/desk.hpp"
 #include "figures/forest.hpp"
 #include "figures/initialise.hpp"
+#include "figures/markers.hpp"
 #include "figures/observe.hpp"
 #include "figures/over_runs.hpp"
 #include "figures/room.hpp"
@@ -237,6 +238,7 @@ int main(int argc, char** argv) {
   waymark::add_desk(app, status);
   waymark::add_initialise(app, status);
   waymark::add_forest(app);
+  waymark::add_markers(app, status);
   waymark::add_observe(app);
   waymark::add_room(app, status);
   CLI11_PARSE(app, argc, argv);

@@ -79,8 +79,8 @@ void add_run(CLI::App& app, Work& work) {
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
   command
       ->add_option("--observe", request->observe,
-                   "part of the observations to use: range-bearing, range, bearing or pixel (corners in "
-                   "images); default what the log offers")
+                   "part of the observations to use: range-bearing, range, bearing, pixel (corners in "
+                   "images) or markers (in images, too); default what the log offers")
       ->type_name("KIND");
   command
       ->add_option("--associate", request->associate,
@@ -103,6 +103,7 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run LOG -o out\n"
       "  waymark run sim:study --filter fastslam --particles 150 --seed 7 -o out\n"
       "  waymark run sim:room --observe pixel -o out\n"
+      "  waymark run LOG --set markers.dictionary=4x4_50 --set markers.size_m=0.085 -o out\n"
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n"
       "  waymark run LOG --from 600 --map out/map.waymark -o out2\n"
       "  waymark run LOG2 --map out/map.waymark --localize -o out3\n\n"

@@ -143,7 +143,7 @@ refuses 2 'filter=ekf' run room -o o --filter fastslam
 refuses 2 'its landmarks are of dimension 3' run log -o o --map seen/map.waymark
 grep -q '^patches: ' seen/map.waymark || fail 'a map from pictures has no patches'
 does run room -o seen-again --from 0.2 --map seen/map.waymark
-refuses 2 'map.localize: needs observe=range-bearing' run room -o o --map seen/map.waymark --localize
+refuses 2 'map.localize: needs observe=range-bearing or markers' run room -o o --map seen/map.waymark --localize
 refuses 2 'observe' run log -o o --observe pixel
 spoil() { rm -rf spoilt && cp -r room spoilt; }
 spoil && sed -i 's/image_width: 320/image_width: 640/' spoilt/camera.yaml

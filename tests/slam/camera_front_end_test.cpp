@@ -41,7 +41,7 @@ struct Robot {
             [this](const Step& step) {
               steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.picture != nullptr});
             },
-            front_end.get()) {}
+            FrontEnds{front_end.get()}) {}
 
   /// Drives ahead at 1 m/s for `seconds` while this is seen.
   void drive(double seconds, std::vector<Event> seen) {

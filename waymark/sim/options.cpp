@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "waymark/core/angle.hpp"
+#include "waymark/sim/marker_pattern.hpp"
 
 namespace waymark::sim {
 namespace {
@@ -93,6 +94,8 @@ void describe(Schema& schema, RoomOptions& o) {
   schema.integer("sim.blocks", o.blocks, {0, 500}, "pieces of furniture, as far as there is room");
   schema.integer("sim.walkers", o.walkers, {0, 50}, "people who walk about");
   schema.real("sim.walker_speed_mps", o.walker_speed_mps, {0.0, 10.0}, "how fast they walk");
+  schema.integer("sim.markers", o.markers, {0, kMarkerPatterns}, "ArUco markers 4x4_50 on the walls");
+  schema.real("sim.marker_size_m", o.marker_size_m, {0.02, 1.0}, "side of their black squares");
 }
 
 void describe(Schema& schema, Distortion& o) {
@@ -272,6 +275,22 @@ SimOptions corridor() {
   return options;
 }
 
+/// Markers instead of furniture. The lap leaves 1.25 m to walls of 6 m.
+SimOptions marker_room() {
+  SimOptions options = filmed(SceneKind::kRoom);
+  options.path.side_m = 3.5;
+  options.path.laps = 2;
+  options.truth.rate_hz = 15.0;
+  options.room.margin_m = 1.25;
+  options.room.blocks = 0;
+  options.room.markers = 12;
+  options.room.marker_size_m = 0.2;
+  options.film.width_px = 640;
+  options.film.height_px = 480;
+  options.film.rate_hz = 15.0;
+  return options;
+}
+
 const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
   static const std::vector<std::pair<std::string, SimOptions>> all{
       {"square", shaped(Shape::kSquare)},
@@ -282,6 +301,7 @@ const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
       {"forest", forest()},
       {"room", filmed(SceneKind::kRoom)},
       {"corridor", corridor()},
+      {"marker-room", marker_room()},
       {"report-square", report(Shape::kSquare)},
       {"report-l-shape", report(Shape::kLShape)},
   };
@@ -339,6 +359,8 @@ Result<void> validate(const SimOptions& options) {
   if (auto lens = validate_lens(film); !lens) return lens;
   if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
     return Error{"simulation: sim.scene is corridor, which leads round a sim.path of square or loop only"};
+  if (room.scene != SceneKind::kNone && room.markers > 0 && world.landmarks > 0)
+    return Error{"simulation: sim.markers and sim.landmarks would share numbers; set one of them to 0"};
   if (world.spread == Spread::kPath && world.max_offset_m < world.min_offset_m + 0.1) {
     return Error{fmt::format(
         "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",

@@ -59,11 +59,11 @@ TexturedRectangle seen_from(const Rectangle& r, const Viewpoint& from, double he
   const Vector3d inverse_depth = -(from.R_camera_world * r.normal()) / height_m;
   const Vector3d from_corner = from.p_world_camera - r.corner_m;
   const auto coordinate = [&](const Vector3d& axis, double offset_m) {
-    const double here = (offset_m + axis.dot(from_corner)) / kTexel_m;
-    return ray_function(here * inverse_depth + from.R_camera_world * axis / kTexel_m);
+    const double here = (offset_m + axis.dot(from_corner)) / r.texel_m;
+    return ray_function(here * inverse_depth + from.R_camera_world * axis / r.texel_m);
   };
-  const Vector2d first = r.texture_offset_m / kTexel_m;
-  const Vector2d last = first + Vector2d(r.width_m, r.height_m) / kTexel_m;
+  const Vector2d first = r.texture_offset_m / r.texel_m;
+  const Vector2d last = first + Vector2d(r.width_m, r.height_m) / r.texel_m;
   const auto limit = [&](double value, float endless) {
     return r.endless ? endless : static_cast<float>(value);
   };

@@ -6,7 +6,9 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/sim/marker_pattern.hpp"
 #include "waymark/sim/textures.hpp"
+#include "waymark/sim/wall_markers.hpp"
 
 namespace waymark::sim {
 namespace {
@@ -167,6 +169,22 @@ class Painter {
   std::uint64_t seed_;
 };
 
+/// A marker on its paper.
+Rectangle plate(const WallMarker& marker, std::size_t texture) {
+  const double cell_m = marker.size_m / kMarkerBlackCells;
+  const double side_m = kMarkerCells * cell_m;
+  const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+  Rectangle paper{.corner_m = marker.centre_m - 0.5 * side_m * (marker.along_s + down),
+                  .along_s = marker.along_s,
+                  .along_t = down,
+                  .width_m = side_m,
+                  .height_m = side_m,
+                  .texture = texture,
+                  .texel_m = cell_m / kTexelsPerMarkerCell};
+  paper.brightness = brightness_of(paper.normal());
+  return paper;
+}
+
 }  // namespace
 
 Walls hull_around(const RoomOptions& options, const Path& path) {
@@ -194,6 +212,10 @@ Scene build_scene(const RoomOptions& options, const Path& path, std::uint64_t se
   Interior interior(options, path, seed);
   for (const Block& block : interior.furniture(clothes + 1)) add_block(block, scene.rectangles);
   scene.walkers = interior.walkers(clothes);
+  for (const WallMarker& marker : place_markers(options, path, seed)) {
+    scene.rectangles.push_back(plate(marker, scene.textures.size()));
+    scene.textures.emplace_back(paint_marker(marker.number));
+  }
   return scene;
 }
 

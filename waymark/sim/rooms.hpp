@@ -12,7 +12,8 @@ namespace waymark::sim {
 [[nodiscard]] Walls hull_around(const RoomOptions& options, const Path& path);
 [[nodiscard]] Walls core_inside(const RoomOptions& options, const Path& path);
 
-/// Hull, furniture at random places beside the path, and people who walk where none stands. The options must
+/// Hull, furniture at random places beside the path, people who walk where none stands, and markers on the
+/// walls. The options must
 /// name a scene. Some 0.1 s per 10 m of wall.
 [[nodiscard]] Scene build_scene(const RoomOptions& options, const Path& path, std::uint64_t seed);
 

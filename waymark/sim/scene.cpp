@@ -15,9 +15,6 @@ using Eigen::Vector3d;
 
 Vector3d at_height(const Vector2d& p, double z_m) { return {p.x(), p.y(), z_m}; }
 
-/// Light comes from above and from one side, so that faces of one block differ.
-double brightness_of(const Vector3d& normal) { return 0.85 + normal.dot(Vector3d(0.08, 0.05, 0.1)); }
-
 Rectangle lit(Rectangle rectangle) {
   rectangle.brightness = brightness_of(rectangle.normal());
   return rectangle;
@@ -77,6 +74,8 @@ void add_walker(const Walker& walker, Stamp when, std::vector<Rectangle>& rectan
 }
 
 }  // namespace
+
+double brightness_of(const Vector3d& normal) { return 0.85 + normal.dot(Vector3d(0.08, 0.05, 0.1)); }
 
 Vector3d Rectangle::normal() const { return along_t.cross(along_s); }
 

@@ -7,6 +7,7 @@
 
 #include "waymark/core/stamp.hpp"
 #include "waymark/sim/rip_map.hpp"
+#include "waymark/sim/textures.hpp"
 
 namespace waymark::sim {
 
@@ -20,6 +21,7 @@ struct Rectangle {
   double height_m = 0.0;
   std::size_t texture = 0;
   Eigen::Vector2d texture_offset_m = Eigen::Vector2d::Zero();  ///< of the corner on the texture
+  double texel_m = kTexel_m;                                   ///< side of a texel
   double brightness = 1.0;
   bool endless = false;  ///< of a hull: goes on behind its neighbours, so that no gap opens in a corner
 
@@ -44,6 +46,10 @@ struct Walker {
   double speed_mps = 1.0;
   std::size_t texture = 0;
 };
+
+/// The light on a surface with that normal: it comes from above and from one side, so that faces of one
+/// block differ.
+[[nodiscard]] double brightness_of(const Eigen::Vector3d& normal);
 
 /// Everything that a camera can see.
 struct Scene {

@@ -9,6 +9,7 @@
 #include "waymark/sim/landmark_sensor.hpp"
 #include "waymark/sim/path.hpp"
 #include "waymark/sim/rooms.hpp"
+#include "waymark/sim/wall_markers.hpp"
 #include "waymark/sim/wheels.hpp"
 #include "waymark/sim/world.hpp"
 
@@ -19,6 +20,8 @@ constexpr double kEventsMax = 1e7;
 // A filter must not believe in a sensor without any noise.
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
+// What the exposure of a driving camera leaves of its direction, measured in rendered rooms.
+constexpr double kMountSigma_deg = 1e-2;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -63,8 +66,14 @@ bool has_images(const SimOptions& options) { return options.room.scene != SceneK
 
 Settings settings_of(const SimOptions& options) {
   Settings settings = sensor_settings(options);
-  if (has_images(options))
-    std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(settings));
+  if (!has_images(options)) return settings;
+  std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(settings));
+  if (options.room.markers > 0) {
+    settings.emplace_back("observe", "markers");
+    settings.emplace_back("markers.dictionary", "4x4_50");
+    settings.emplace_back("markers.size_m", fmt::format("{}", options.room.marker_size_m));
+    settings.emplace_back("markers.mount_sigma_deg", fmt::format("{}", kMountSigma_deg));
+  }
   return settings;
 }
 
@@ -176,6 +185,11 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   if (has_images(options)) {
     info.only_pixels = std::ranges::none_of(
         events, [](const Event& event) { return std::holds_alternative<Observations>(event.content); });
+    for (const WallMarker& marker : place_markers(options.room, path, seed))
+      info.landmarks.push_back({{LandmarkId::Family::kMarker, marker.number},
+                                marker.centre_m.x(),
+                                marker.centre_m.y(),
+                                marker.centre_m.z()});
     film = std::make_unique<Film>(options.film, build_scene(options.room, path, seed), driven, seed, threads);
     add_images(events, *film);
   }

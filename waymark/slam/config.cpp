@@ -47,14 +47,31 @@ Result<std::unique_ptr<Source>> open(const std::string& input, const UserSetting
   return open_source(input, config.input);
 }
 
+/// Does the user say what markers there are, and not what else to observe?
+bool wants_markers(const UserSettings& user) {
+  Config config;
+  Schema schema = describe(config);
+  return apply(schema, user) && !schema.was_set("observe") &&
+         (schema.was_set("markers.dictionary") || schema.was_set("markers.size_m") ||
+          schema.was_set("markers.sizes_m"));
+}
+
+/// Range and bearing of markers are measured from the camera.
+void put_sensor_at_camera(Config& config) {
+  const CameraMount& mount = config.camera.mount;
+  config.sensor.x_m = mount.x_m;
+  config.sensor.y_m = mount.y_m;
+  config.sensor.yaw_deg = mount.yaw_deg;
+}
+
 }  // namespace
 
 Schema describe(Config& config) {
   Schema schema;
   schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
-  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel"},
+  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel", "markers"},
                 "which part of the observations is used; pixel: natural corners in images, or given pixels; "
-                "the default is what the log offers");
+                "markers: ArUco markers or AprilTags in images; the default is what the log offers");
   schema.choice(
       "associate", config.associate, {"known", "nearest", "jcbb", "ml"},
       "how observations find their landmarks: by identity alone, or also without one: nearest (pair "
@@ -74,6 +91,7 @@ Schema describe(Config& config) {
   describe(schema, config.pixel);
   describe(schema, config.tracker);
   describe(schema, config.search);
+  describe(schema, config.markers);
   describe(schema, config.fastslam);
   describe(schema, config.smooth);
   sim::describe(schema, config.sim);
@@ -109,14 +127,18 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
   const LogInfo& log = (*source)->info();
   if (auto done = apply(schema, log); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
+  if (wants_markers(user))
+    if (auto done = schema.set("observe", "markers", "--set"); !done) return done.error();
   config.camera_known = schema.was_set("camera.fu_px");
-  if (!log.identities) {
+  if (!log.identities && config.observe != Observe::kMarkers) {
     // The filter is settled now; but the user may have said how to associate, too.
     if (auto done = schema.set("associate", without_identities(config.filter), log.name); !done)
       return done.error();
     if (auto done = apply(schema, user); !done) return done.error();
   }
-  if (config.observe == Observe::kPixel) *source = std::make_unique<ImageLoader>(std::move(*source));
+  if (config.observe == Observe::kMarkers) put_sensor_at_camera(config);
+  if (config.observe == Observe::kPixel || config.observe == Observe::kMarkers)
+    *source = std::make_unique<ImageLoader>(std::move(*source));
   return OpenedInput{std::move(*source), config};
 }
 

@@ -14,6 +14,7 @@
 #include "waymark/ekf/pixel_slam.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 #include "waymark/io/open_source.hpp"
+#include "waymark/markers/marker_options.hpp"
 #include "waymark/models/camera.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/odometry.hpp"
@@ -55,6 +56,7 @@ struct Config {
   PixelSlamOptions pixel;
   vision::TrackerOptions tracker;
   vision::SearchOptions search;
+  markers::MarkerOptions markers;
   FastSlamOptions fastslam;
   SmoothOptions smooth;
   sim::SimOptions sim;
@@ -76,7 +78,9 @@ struct OpenedInput {
 };
 
 /// Opens a log folder, a data set or `sim:SCENARIO`, and settles the config: defaults, then what the log
-/// knows about its robot, then what the user says. Where images are observed they come with their pixels.
+/// knows about its robot, then what the user says. Who says what markers there are wants them observed; then
+/// the camera is the landmark sensor, and `sensor.x_m`, `y_m` and `yaw_deg` are those of its mount. Where
+/// images are observed they come with their pixels.
 [[nodiscard]] Result<OpenedInput> open_input(const std::string& input, const UserSettings& user);
 
 /// The config alone: defaults, then what the user says.

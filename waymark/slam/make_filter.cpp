@@ -40,7 +40,7 @@ std::unique_ptr<Filter> make_pixel_ekf(const Config& config, const std::optional
 Result<std::unique_ptr<Filter>> make_ekf(const Config& config, const std::optional<MapState>& start) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
-  if (config.associate != Association::kKnown && config.observe != Observe::kRangeBearing)
+  if (config.associate != Association::kKnown && !tells_place(config.observe))
     return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
   if (config.ekf.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
@@ -52,6 +52,7 @@ Result<std::unique_ptr<Filter>> make_ekf(const Config& config, const std::option
         "map"};
   switch (config.observe) {
     case Observe::kRangeBearing:
+    case Observe::kMarkers:
     case Observe::kRange:
     case Observe::kBearing:
       return make_planar_ekf(config, start);
@@ -67,7 +68,7 @@ Result<std::unique_ptr<Filter>> make_fastslam(const Config& config) {
   if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
     return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
   const bool by_likelihood = config.associate == Association::kMl;
-  if (by_likelihood && config.observe != Observe::kRangeBearing)
+  if (by_likelihood && (config.observe == Observe::kRange || config.observe == Observe::kBearing))
     return Error{
         "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
   return std::unique_ptr<Filter>(std::make_unique<FastSlam>(
@@ -82,11 +83,12 @@ Result<std::optional<MapState>> read_start_map(const Config& config) {
   if (config.map.localize && config.map.file.empty())
     return Error{"map.localize: needs a saved map: --map FILE (config key map.file)"};
   if (config.map.file.empty()) return std::optional<MapState>{};
-  if (config.filter != FilterKind::kEkf || (!pixels && config.observe != Observe::kRangeBearing))
-    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing or pixel"};
+  if (config.filter != FilterKind::kEkf || (!pixels && !tells_place(config.observe)))
+    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing, markers or pixel"};
   if (config.map.localize && pixels)
     return Error{
-        "map.localize: needs observe=range-bearing; with pixels a run goes on from the pose in the map "
+        "map.localize: needs observe=range-bearing or markers; with pixels a run goes on from the pose in "
+        "the map "
         "(map.localize=false)"};
   if (config.smooth.run)
     return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
@@ -113,6 +115,11 @@ std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& fil
                                                     Camera(config.camera), config.threads);
   if (start) front_end->remember(start->patches);
   return front_end;
+}
+
+Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& config) {
+  if (config.observe != Observe::kMarkers) return std::unique_ptr<MarkerFrontEnd>();
+  return MarkerFrontEnd::make(config.markers, Camera(config.camera));
 }
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }

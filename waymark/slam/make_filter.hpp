@@ -21,6 +21,9 @@ namespace waymark {
 [[nodiscard]] std::unique_ptr<CameraFrontEnd> make_front_end(const Config& config, Filter& filter,
                                                              const std::optional<MapState>& start = {});
 
+/// What finds markers in pictures where they are asked for, or why it cannot; null where they are not.
+[[nodiscard]] Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& config);
+
 [[nodiscard]] const char* filter_name(FilterKind kind);
 
 }  // namespace waymark

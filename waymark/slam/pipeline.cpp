@@ -22,6 +22,8 @@ std::optional<Measurement> part(const Measurement& value, Observe observe) {
       return std::holds_alternative<Bearing>(value) ? std::optional(value) : std::nullopt;
     case Observe::kPixel:
       return std::holds_alternative<Pixel>(value) ? std::optional(value) : std::nullopt;
+    case Observe::kMarkers:
+      return std::nullopt;  // they are seen in pictures
   }
   return std::nullopt;
 }
@@ -55,6 +57,10 @@ bool tells_size(Observe observe, const SensorErrors& errors) {
   return observe != Observe::kBearing && !(errors.shared_range_sigma_ratio > 0.0);
 }
 
+bool FrontEnds::fit(const ImageView& image) const {
+  return (corners != nullptr && corners->fits(image)) || (markers != nullptr && markers->fits(image));
+}
+
 void describe(Schema& schema, PipelineOptions& options) {
   schema.real("pipeline.reorder_window_s", options.reorder_window_s, {0.0, 60.0},
               "how late an event may arrive and still be put in its place, s");
@@ -63,12 +69,12 @@ void describe(Schema& schema, PipelineOptions& options) {
 }
 
 Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-                   const LandmarkSensor& sensor, Observe observe, Sink sink, CameraFrontEnd* front_end)
+                   const LandmarkSensor& sensor, Observe observe, Sink sink, const FrontEnds& front_ends)
     : filter_(filter),
       sensor_(sensor),
       observe_(observe),
       sink_(std::move(sink)),
-      front_end_(front_end),
+      front_ends_(front_ends),
       odometer_(odometry, options.max_hold_s),
       window_(duration_from_seconds(options.reorder_window_s)),
       delay_(duration_from_seconds(sensor.delay_s)),
@@ -83,13 +89,21 @@ void Pipeline::push(Event event) {
     ++counts_.late;
     return;
   }
+  announce(event);
   insert(std::move(event));
   while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
 }
 
 bool Pipeline::is_observed(const EventContent& content) const {
   return std::holds_alternative<Observations>(content) ||
-         (front_end_ != nullptr && std::holds_alternative<Image>(content));
+         (front_ends_.any() && std::holds_alternative<Image>(content));
+}
+
+/// Markers are found while a picture waits for its turn.
+void Pipeline::announce(const Event& event) {
+  const auto* image = std::get_if<Image>(&event.content);
+  if (image != nullptr && front_ends_.markers != nullptr && image->pixels && front_ends_.fit(*image->pixels))
+    front_ends_.markers->announce(image->pixels);
 }
 
 void Pipeline::finish() {
@@ -136,15 +150,28 @@ void Pipeline::process_front_group() {
 
 /// Pixels that come as observations are a front end's work done elsewhere: they go before a picture.
 const Correction* Pipeline::correct() {
+  if (picture_ && front_ends_.markers != nullptr) see_markers();
   if (!batch_.empty()) {
     picture_.reset();
     return &filter_.correct(batch_);
   }
-  if (!picture_) return nullptr;
+  if (!picture_ || front_ends_.corners == nullptr) return nullptr;
   ++counts_.pictures;
-  const Correction& correction = front_end_->see(*picture_);
+  const Correction& correction = front_ends_.corners->see(*picture_);
   counts_.observations += std::ssize(correction.innovations);
   return &correction;
+}
+
+void Pipeline::see_markers() {
+  ++counts_.pictures;
+  for (const Observation& seen : front_ends_.markers->see(picture_)) {
+    ++counts_.observations;
+    if (is_usable(sensor_, seen.value))
+      batch_.push_back(seen);
+    else
+      ++counts_.unusable;
+  }
+  last_picture_ = std::exchange(picture_, nullptr);
 }
 
 void Pipeline::predict(Stamp stamp) {
@@ -173,10 +200,11 @@ void Pipeline::collect(const Observations& observations) {
 /// A camera that hangs gives one picture again and again, under new stamps: believing it would stop the
 /// robot.
 void Pipeline::take(const Image& image) {
-  if (!image.pixels || !front_end_->fits(*image.pixels)) {
+  if (!image.pixels || !front_ends_.fit(*image.pixels)) {
     ++counts_.misfits;
   } else if (picture_ || (last_picture_ && *last_picture_ == *image.pixels)) {
     ++counts_.repeats;
+    if (front_ends_.markers != nullptr) front_ends_.markers->drop(image.pixels);
   } else {
     picture_ = image.pixels;
   }

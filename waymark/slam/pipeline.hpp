@@ -10,12 +10,18 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/slam/camera_front_end.hpp"
+#include "waymark/slam/marker_front_end.hpp"
 #include "waymark/slam/odometer.hpp"
 
 namespace waymark {
 
 /// Which part of what the log holds is used.
-enum class Observe { kRangeBearing, kRange, kBearing, kPixel };
+enum class Observe { kRangeBearing, kRange, kBearing, kPixel, kMarkers };
+
+/// Whether every sighting has a range and a bearing.
+[[nodiscard]] constexpr bool tells_place(Observe observe) {
+  return observe == Observe::kRangeBearing || observe == Observe::kMarkers;
+}
 
 /// Whether it shows how large the world is: ranges whose scale is known.
 [[nodiscard]] bool tells_size(Observe observe, const SensorErrors& errors);
@@ -26,6 +32,15 @@ struct PipelineOptions {
 };
 
 void describe(Schema& schema, PipelineOptions& options);
+
+/// What looks into pictures, if anything; neither: pictures are ignored. Both must outlive who uses them.
+struct FrontEnds {
+  CameraFrontEnd* corners = nullptr;  ///< for a filter over pixels
+  MarkerFrontEnd* markers = nullptr;  ///< for a filter over range and bearing
+
+  [[nodiscard]] bool any() const { return corners != nullptr || markers != nullptr; }
+  [[nodiscard]] bool fit(const ImageView& image) const;
+};
 
 /// What the pipeline reports after every group of events with one stamp.
 struct Step {
@@ -56,16 +71,16 @@ struct PipelineCounts {
 
 /// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
 /// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events may arrive
-/// late by up to the reordering window. Pictures go to the front end where there is one; a picture that
+/// late by up to the reordering window. Pictures go to the front end where there is one, which may begin with
+/// them as soon as they arrive; a picture that
 /// shows what cannot be, or nothing new, is passed over and the robot goes on by dead reckoning. Truth is not
 /// its business and is ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;
 
-  /// `front_end` looks into pictures for this filter; null: pictures are ignored.
   Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-           const LandmarkSensor& sensor, Observe observe, Sink sink, CameraFrontEnd* front_end = nullptr);
+           const LandmarkSensor& sensor, Observe observe, Sink sink, const FrontEnds& front_ends = {});
 
   void push(Event event);
   /// Processes what is still waiting.
@@ -78,7 +93,9 @@ class Pipeline {
   void process_front_group();
   void predict(Stamp stamp);
   void collect(const Observations& observations);
+  void announce(const Event& event);
   void take(const Image& image);
+  void see_markers();
   [[nodiscard]] const Correction* correct();
   [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;
@@ -87,7 +104,7 @@ class Pipeline {
   LandmarkSensor sensor_;
   Observe observe_;
   Sink sink_;
-  CameraFrontEnd* front_end_;
+  FrontEnds front_ends_;
   Odometer odometer_;
   Duration window_;
   Duration delay_;

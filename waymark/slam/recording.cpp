@@ -64,7 +64,7 @@ void keep(Recording& recording, const Step& step, const CameraFrontEnd* front_en
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
-  if (step.picture != nullptr)
+  if (step.picture != nullptr && front_end != nullptr)
     recording.film.add(step.stamp, *step.picture, front_end->looks(), step.correction->innovations);
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)
@@ -91,6 +91,10 @@ std::optional<Error> read_all(Source& source, const TimeSpan& span,
   }
 }
 
+bool looks_into_pictures(Observe observe) {
+  return observe == Observe::kPixel || observe == Observe::kMarkers;
+}
+
 bool shows_pixels(const EventContent& content) {
   const auto* observations = std::get_if<Observations>(&content);
   return std::holds_alternative<Image>(content) ||
@@ -103,11 +107,12 @@ bool shows_pixels(const EventContent& content) {
 Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
   if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
-  if (config.camera_known || config.observe != Observe::kPixel || !shows_pixels(event.content)) return {};
+  if (config.camera_known || !looks_into_pictures(config.observe) || !shows_pixels(event.content)) return {};
   return Error{
-      "camera.fu_px: nobody says what the camera is like: put its camera_info file into the log as "
-      "camera.yaml, or set camera.width_px, camera.height_px, camera.fu_px, camera.fv_px, camera.cu_px and "
-      "camera.cv_px"};
+      "camera.fu_px: nobody says what the camera is like: put its camera_info file, as `waymark calibrate "
+      "camera` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
+      "camera.fu_px, camera.fv_px, camera.cu_px and camera.cv_px; for a bag name the file: "
+      "input.camera_file"};
 }
 
 /// Truth goes to the record, the rest to the pipeline; wheels, cars and cameras that nobody knows end the
@@ -125,6 +130,10 @@ Result<void> route(Event event, const Config& config, Recording& recording, Pipe
 
 /// Where every observation lacks what the mode asks for, dead reckoning would pass for a result.
 std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe) {
+  if (observe == Observe::kMarkers && recording.counts.pictures == 0)
+    return Error{
+        "observe: this log has no picture in which markers could be found; `waymark check` lists what it "
+        "has"};
   if (observe == Observe::kPixel && recording.counts.pictures == 0 && recording.innovations.empty())
     return Error{
         "observe: this log has no picture and no pixel observation that can be used; `waymark check` lists "
@@ -154,10 +163,22 @@ void finish_pictures(Recording& recording, const Config& config, const CameraFro
         fmt::format("{} pictures in which something was left out for want of time", counts.out_of_budget));
 }
 
-std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const CameraFrontEnd* front_end) {
-  if (front_end != nullptr) return front_end->blocks();
+void finish_markers(Recording& recording, const MarkerFrontEnd& front_end) {
+  std::ranges::move(front_end.notes(), std::back_inserter(recording.notes));
+  std::vector<Innovation> innovations;
+  for (const auto& each : recording.innovations) innovations.push_back(each.innovation);
+  std::ranges::move(describe_jumps(innovations), std::back_inserter(recording.notes));
+}
+
+std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const FrontEnds& front_ends) {
+  if (front_ends.corners != nullptr) return front_ends.corners->blocks();
   const auto rows = filter.blocks().rows();
-  return {rows.begin(), rows.end()};
+  std::vector<FunctionBlocks::Row> all(rows.begin(), rows.end());
+  if (front_ends.markers != nullptr) {
+    const auto more = front_ends.markers->blocks().rows();
+    all.insert(all.begin(), more.begin(), more.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -171,6 +192,9 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   Recording recording;
   recording.filter = std::move(*filter);
   const auto front_end = make_front_end(config, *recording.filter, *start_map);
+  auto markers = make_marker_front_end(config);
+  if (!markers) return markers.error();
+  const FrontEnds front_ends{front_end.get(), markers->get()};
   Pipeline pipeline(
       *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
       [&](const Step& step) {
@@ -178,7 +202,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
         keep(recording, step, front_end.get());
         if (config.smooth.run) keep_for_smoothing(recording, step);
       },
-      front_end.get());
+      front_ends);
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
     return route(std::move(event), config, recording, pipeline);
@@ -187,10 +211,11 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
-  recording.blocks = blocks_of(*recording.filter, front_end.get());
+  recording.blocks = blocks_of(*recording.filter, front_ends);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();
   if (front_end) finish_pictures(recording, config, *front_end);
+  if (*markers) finish_markers(recording, **markers);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_untold(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));

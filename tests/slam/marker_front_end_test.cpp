@@ -1,0 +1,202 @@
+#include "waymark/slam/marker_front_end.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "waymark/slam/recording.hpp"
+
+#include "markers/drawn_marker.hpp"
+
+namespace waymark {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kSize_m = 0.2;
+
+class MarkerFrontEndTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!markers::can_detect(markers::MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
+  }
+};
+
+markers::MarkerOptions marker_options(bool own_thread = true) {
+  return {.dictionary = "4x4_50", .size_m = kSize_m, .own_thread = own_thread};
+}
+
+markers::MarkerPose at(double x_m, double depth_m) {
+  markers::MarkerPose pose;
+  pose.p_camera_marker = {x_m, 0.0, depth_m};
+  return pose;
+}
+
+/// What to draw, and where.
+struct Drawn {
+  int number;
+  markers::MarkerPose pose;
+};
+
+MarkerFrontEnd::Picture picture_of(const std::vector<Drawn>& all) {
+  GreyImage image(640, 480, 120);
+  for (const Drawn& each : all)
+    test::draw_marker(image, Camera(test::marker_camera()), each.pose, kSize_m, each.number);
+  return std::make_shared<const GreyImage>(std::move(image));
+}
+
+std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEnd::Picture& picture) {
+  front_end.announce(picture);
+  std::vector<std::int32_t> numbers;
+  for (const Observation& each : front_end.see(picture)) numbers.push_back(each.id->number);
+  return numbers;
+}
+
+TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {
+  for (const bool own_thread : {true, false}) {
+    const auto front_end = *MarkerFrontEnd::make(marker_options(own_thread), Camera(test::marker_camera()));
+    EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.3, 2.0)}, {7, at(0.3, 1.5)}})), ElementsAre(3, 7));
+    EXPECT_THAT(front_end->notes(), IsEmpty());
+    EXPECT_EQ(front_end->blocks().rows()[0].calls, 1);
+    EXPECT_GT(front_end->blocks().rows()[0].total.count(), 0);
+  }
+}
+
+TEST_F(MarkerFrontEndTest, TrustsNeitherOfTwoWithOneNumber) {
+  const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
+  EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
+              ElementsAre(5));
+  EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("marker 3 is twice in 1 pictures")));
+}
+
+TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
+  markers::MarkerOptions options = marker_options();
+  options.confirm = 3;
+  const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
+  const auto with = picture_of({{1, at(0.0, 2.0)}, {2, at(0.4, 2.0)}}),
+             without = picture_of({{1, at(0.0, 2.0)}});
+  EXPECT_THAT(seen_in(*front_end, with), IsEmpty());
+  EXPECT_THAT(seen_in(*front_end, without), IsEmpty());
+  EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
+  for (int i = 0; i < 20; ++i) EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
+  EXPECT_THAT(seen_in(*front_end, with), ElementsAre(1));  // 2 begins anew
+  EXPECT_THAT(front_end->notes(), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
+}
+
+TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
+  const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
+  const auto first = picture_of({{1, at(0.0, 2.0)}}), second = picture_of({{2, at(0.0, 2.0)}});
+  for (const auto& picture : {first, second, first}) front_end->announce(picture);
+  front_end->drop(first);
+  EXPECT_EQ(front_end->see(second)[0].id->number, 2);
+  EXPECT_EQ(front_end->see(first)[0].id->number, 1);
+}
+
+TEST_F(MarkerFrontEndTest, EndsWhilePicturesWait) {
+  const auto picture = picture_of({{1, at(0.0, 2.0)}});
+  const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
+  for (int i = 0; i < 20; ++i) front_end->announce(picture);
+  EXPECT_TRUE(front_end->fits(*picture));
+  EXPECT_FALSE(front_end->fits(GreyImage(320, 240)));
+}
+
+TEST(MarkerFrontEnd, SaysWhatItNeeds) {
+  const auto front_end = MarkerFrontEnd::make({}, Camera());
+  ASSERT_FALSE(front_end.ok());
+  EXPECT_THAT(front_end.error().message, HasSubstr("markers.dictionary"));
+}
+
+TEST(MarkerJumps, AreNoticedWhereAFifthOfTheSightingsIsRefused) {
+  const auto innovation = [](std::int32_t number, Outcome outcome) {
+    return Innovation{{LandmarkId::Family::kMarker, number}, outcome, 2, 0.0, 0.0};
+  };
+  std::vector<Innovation> all;
+  for (int i = 0; i < 40; ++i) {
+    all.push_back(innovation(1, Outcome::kMatched));
+    all.push_back(innovation(2, i % 4 == 0 ? Outcome::kGated : Outcome::kMatched));
+    all.push_back(innovation(3, i % 20 == 0 ? Outcome::kGated : Outcome::kMatched));
+  }
+  const auto lines = describe_jumps(all);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_THAT(lines[0], HasSubstr("marker 2 was 10 times out of 40 not where it should be"));
+}
+
+/// The first seconds of a drive through a rendered room.
+Result<Recording> drive(const std::vector<std::string>& assignments, double seconds = 4.0,
+                        const std::string& scenario = "marker-room") {
+  auto opened = open_input("sim:" + scenario, {{}, assignments});
+  if (!opened) return opened.error();
+  return record(*opened->source, opened->config, {0.0, seconds});
+}
+
+TEST_F(MarkerFrontEndTest, PutsTheMarkersOfARoomOnTheMap) {
+  for (const char* filter : {"ekf", "fastslam"}) {
+    const auto recording = drive({std::string("filter=") + filter});
+    ASSERT_TRUE(recording.ok());
+    EXPECT_EQ(recording->counts.pictures, 61);
+    const auto survey = open_input("sim:marker-room", {})->source->info().landmarks;
+    const auto map = recording->filter->snapshot().landmarks;
+    EXPECT_GE(map.size(), 2U);
+    for (const LandmarkEstimate& each : map) {
+      ASSERT_GE(each.id.number, 0);
+      ASSERT_LT(each.id.number, 12);
+      EXPECT_EQ(each.id.family, LandmarkId::Family::kMarker);
+    }
+    EXPECT_EQ(survey.size(), 12U);
+    EXPECT_GT(survey[0].z_m, 0.0);
+  }
+}
+
+TEST_F(MarkerFrontEndTest, AThreadOfItsOwnChangesNothing) {
+  const auto with = drive({"markers.own_thread=true"}, 3.0),
+             without = drive({"markers.own_thread=false"}, 3.0);
+  ASSERT_TRUE(with.ok() && without.ok());
+  ASSERT_EQ(with->trajectory.size(), without->trajectory.size());
+  for (std::size_t i = 0; i < with->trajectory.size(); ++i) {
+    EXPECT_EQ(with->trajectory[i].pose.x_m, without->trajectory[i].pose.x_m);
+    EXPECT_EQ(with->trajectory[i].pose.theta_rad, without->trajectory[i].pose.theta_rad);
+  }
+}
+
+TEST_F(MarkerFrontEndTest, BlocksStandInTheTableOfTheRun) {
+  const auto recording = drive({}, 1.0);
+  ASSERT_TRUE(recording.ok());
+  std::vector<std::string> names;
+  for (const auto& row : recording->blocks) names.emplace_back(row.name);
+  EXPECT_THAT(names, testing::IsSupersetOf({"find markers", "measure markers", "FB6 estimate"}));
+}
+
+TEST_F(MarkerFrontEndTest, ALogWithoutPicturesIsAnError) {
+  const auto recording =
+      drive({"observe=markers", "markers.dictionary=4x4_50", "markers.size_m=0.2"}, 4.0, "study");
+  ASSERT_TRUE(recording.ok());
+  ASSERT_TRUE(recording->error.has_value());
+  EXPECT_THAT(recording->error->message, HasSubstr("no picture in which markers could be found"));
+}
+
+TEST(MarkerConfig, WhoNamesMarkersWantsThemObserved) {
+  const auto opened = open_input("sim:room", {{}, {"markers.dictionary=4x4_50", "markers.size_m=0.1"}});
+  ASSERT_TRUE(opened.ok());
+  EXPECT_EQ(opened->config.observe, Observe::kMarkers);
+  const auto other = open_input("sim:room", {{}, {"markers.size_m=0.1", "observe=pixel"}});
+  ASSERT_TRUE(other.ok());
+  EXPECT_EQ(other->config.observe, Observe::kPixel);
+}
+
+TEST(MarkerConfig, TheCameraIsTheLandmarkSensor) {
+  const auto opened = open_input("sim:marker-room", {{}, {"sim.camera_x_m=0.2", "sim.camera_yaw_deg=15"}});
+  ASSERT_TRUE(opened.ok());
+  EXPECT_EQ(opened->config.observe, Observe::kMarkers);
+  EXPECT_EQ(opened->config.sensor.x_m, 0.2);
+  EXPECT_EQ(opened->config.sensor.yaw_deg, 15.0);
+}
+
+TEST(MarkerConfig, WithoutDictionaryNothingRuns) {
+  const auto recording = drive({"observe=markers"}, 1.0, "room");
+  ASSERT_FALSE(recording.ok());
+  EXPECT_THAT(recording.error().message, HasSubstr("markers.dictionary: which markers"));
+}
+
+}  // namespace
+}  // namespace waymark

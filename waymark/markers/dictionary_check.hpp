@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "waymark/core/grey_image.hpp"
+#include "waymark/markers/marker_detector.hpp"
+
+namespace waymark::markers {
+
+/// Notices that markers are looked for in the wrong dictionary: hardly one is found, or they come and go,
+/// while another dictionary finds more in some of the same pictures.
+class DictionaryCheck {
+ public:
+  explicit DictionaryCheck(const MarkerDictionary& dictionary) : dictionary_(dictionary) {}
+
+  /// Called with every picture and what was found in it.
+  void add(std::shared_ptr<const GreyImage> picture, std::span<const std::int32_t> ids);
+
+  /// One line if the dictionary looks wrong; tries the others then, which takes some 0.5 s.
+  [[nodiscard]] std::optional<std::string> verdict() const;
+
+ private:
+  static constexpr std::size_t kSamples = 8;
+
+  /// Pictures spread evenly over the log.
+  struct Sample {
+    std::shared_ptr<const GreyImage> picture;
+    std::set<std::int32_t> ids;
+  };
+
+  [[nodiscard]] bool is_suspicious() const;
+
+  MarkerDictionary dictionary_;
+  std::int64_t pictures_ = 0;
+  std::int64_t sightings_ = 0;
+  std::int64_t steady_ = 0;  ///< sightings of what the picture before showed, too
+  std::set<std::int32_t> last_ids_;
+  std::set<std::int32_t> all_ids_;
+  std::int64_t every_ = 1;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace waymark::markers

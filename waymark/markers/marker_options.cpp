@@ -1,0 +1,84 @@
+#include "waymark/markers/marker_options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace waymark::markers {
+namespace {
+
+/// A number that takes the whole text.
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+Result<std::map<std::int32_t, double>> parse_sizes(std::string text, int count) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '{' || c == '}'; });
+  std::map<std::int32_t, double> sizes_m;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view entry = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), entry.size() + 1));
+    const std::size_t colon = entry.find(':');
+    std::int32_t id = -1;
+    double size_m = 0.0;
+    if (colon == std::string_view::npos || !parse(entry.substr(0, colon), id) || id < 0 || id >= count ||
+        !parse(entry.substr(colon + 1), size_m) || !(size_m > 0.0) || !std::isfinite(size_m))
+      return Error{fmt::format(
+          "markers.sizes_m: '{}' is no size of a marker; expected identities below {} and sides in metres "
+          "like '3: 0.1, 7: 0.25'",
+          entry, count)};
+    sizes_m[id] = size_m;
+  }
+  return sizes_m;
+}
+
+}  // namespace
+
+void describe(Schema& schema, MarkerOptions& o) {
+  std::vector<std::string_view> names;
+  for (const MarkerDictionary& each : marker_dictionaries()) names.push_back(each.name);
+  schema.text("markers.dictionary", o.dictionary,
+              fmt::format("which markers there are: {}", fmt::join(names, ", ")));
+  schema.real("markers.size_m", o.size_m, {0.0, 100.0},
+              "side of the black square of a marker, m; 0: nobody said");
+  schema.text("markers.sizes_m", o.sizes_m, "sides of those that differ, m, as '3: 0.1, 7: 0.25'");
+  schema.real("markers.side_sigma_px", o.side_sigma_px, {1e-3, 100.0},
+              "standard deviation of one point on a side of a marker, pixels");
+  schema.real("markers.mount_sigma_deg", o.mount_sigma_deg, {0.0, 10.0},
+              "standard deviation of how the camera shakes on its robot, degrees");
+  schema.real("markers.max_tilt_deg", o.max_tilt_deg, {0.0, 90.0},
+              "a marker that is turned further from the camera is not used, degrees");
+  schema.integer("markers.confirm", o.confirm, {1, 1000},
+                 "pictures close together that must show a new identity before it is believed");
+  schema.boolean("markers.own_thread", o.own_thread,
+                 "find markers on a thread of its own, ahead of the filter; the result is the same");
+}
+
+double MarkerSet::size_of(std::int32_t id) const {
+  const auto own = sizes_m.find(id);
+  return own != sizes_m.end() ? own->second : size_m;
+}
+
+Result<MarkerSet> marker_set(const MarkerOptions& options) {
+  if (options.dictionary.empty())
+    return Error{
+        "markers.dictionary: which markers are to be found? Set it to the name of their dictionary, for "
+        "example 4x4_50 or apriltag_36h11; `waymark config` lists all"};
+  const auto dictionary = find_marker_dictionary(options.dictionary);
+  if (!dictionary) return dictionary.error();
+  auto sizes_m = parse_sizes(options.sizes_m, dictionary->size);
+  if (!sizes_m) return sizes_m.error();
+  if (options.size_m == 0.0 && sizes_m->empty())
+    return Error{
+        "markers.size_m: how large are the markers? Set it to the side of their black squares in metres, for "
+        "example 0.085, or markers.sizes_m where they differ"};
+  return MarkerSet{*dictionary, options.size_m, *std::move(sizes_m)};
+}
+
+}  // namespace waymark::markers

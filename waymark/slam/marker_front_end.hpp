@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "waymark/core/filter.hpp"
+#include "waymark/core/function_blocks.hpp"
+#include "waymark/core/grey_image.hpp"
+#include "waymark/core/observation.hpp"
+#include "waymark/core/result.hpp"
+#include "waymark/markers/dictionary_check.hpp"
+#include "waymark/markers/marker_detector.hpp"
+#include "waymark/markers/marker_options.hpp"
+#include "waymark/markers/marker_sighting.hpp"
+#include "waymark/models/camera.hpp"
+
+namespace waymark {
+
+/// Finds markers in pictures, ahead of who needs them: on a thread of its own, or, without one, when they are
+/// asked for. What it finds is the same either way.
+class MarkerFinder {
+ public:
+  struct Finds {
+    std::vector<markers::Marker> markers;
+    Duration cpu{0};  ///< that it took
+  };
+  using Picture = std::shared_ptr<const GreyImage>;
+
+  MarkerFinder(std::unique_ptr<markers::MarkerDetector> detector, bool own_thread);
+  ~MarkerFinder();
+  MarkerFinder(const MarkerFinder&) = delete;
+  MarkerFinder& operator=(const MarkerFinder&) = delete;
+
+  /// A picture that will be taken or dropped.
+  void announce(Picture picture);
+  /// What is in one that was announced; waits where need be.
+  [[nodiscard]] Finds take(const Picture& picture);
+  /// It will not be needed.
+  void drop(const Picture& picture);
+
+ private:
+  [[nodiscard]] Finds look(const GreyImage& picture);
+  void work();
+
+  std::unique_ptr<markers::MarkerDetector> detector_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Picture> waiting_;
+  Picture at_work_;
+  std::multimap<Picture, Finds> done_;
+  bool stopping_ = false;
+  std::optional<std::thread> thread_;  ///< last: it works on the others
+};
+
+/// What a camera sees of markers, as sightings for a filter over range and bearing.
+class MarkerFrontEnd {
+ public:
+  using Picture = MarkerFinder::Picture;
+
+  /// Or what the options lack, or this build.
+  [[nodiscard]] static Result<std::unique_ptr<MarkerFrontEnd>> make(const markers::MarkerOptions& options,
+                                                                    const Camera& camera);
+
+  /// Has it the size of the camera's pictures?
+  [[nodiscard]] bool fits(const ImageView& image) const;
+
+  /// A picture that will be looked into, or dropped.
+  void announce(const Picture& picture) { finder_.announce(picture); }
+  void drop(const Picture& picture) { finder_.drop(picture); }
+
+  /// The markers in a picture, each identity once. Valid until the next call.
+  [[nodiscard]] std::span<const Observation> see(const Picture& picture);
+
+  [[nodiscard]] const FunctionBlocks& blocks() const { return blocks_; }
+
+  /// What was not used and why, and what looks wrong with the markers, one line each.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+ private:
+  MarkerFrontEnd(const markers::MarkerOptions& options, const markers::MarkerSet& set, const Camera& camera,
+                 std::unique_ptr<markers::MarkerDetector> detector);
+
+  void measure(const Picture& picture, std::span<const markers::Marker> found);
+  void refuse_duplicates();
+  void hold_back_new();
+
+  /// Of an identity that is not believed yet.
+  struct Trial {
+    int sightings = 0;
+    std::int64_t last_picture = 0;
+  };
+
+  Camera camera_;
+  int confirm_;
+  markers::MarkerSighter sighter_;
+  markers::DictionaryCheck check_;
+  std::vector<Observation> sightings_;
+  std::array<std::int64_t, markers::kRefusals> refused_{};
+  std::map<LandmarkId, std::int64_t> duplicates_;  ///< pictures that show an identity twice
+  std::int64_t pictures_ = 0;
+  std::map<LandmarkId, Trial> trials_;
+  FunctionBlocks blocks_{"find markers", "measure markers"};
+  MarkerFinder finder_;  ///< last, so that its thread ends before what it works on
+};
+
+/// Identities whose sightings the filter often refused as too far from where they should be, as when two
+/// markers bear one number; one line each.
+[[nodiscard]] std::vector<std::string> describe_jumps(std::span<const Innovation> innovations);
+
+}  // namespace waymark
