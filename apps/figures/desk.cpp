@@ -21,6 +21,7 @@
 #include "waymark/vision/landmark_finder.hpp"
 #include "waymark/vision/new_corners.hpp"
 
+#include "figures/desk_search.hpp"
 #include "figures/homography.hpp"
 #include "figures/line_chart.hpp"
 
@@ -29,8 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatch_px = 16;
-constexpr double kPrediction_px = 3.0;  // standard deviation of a place predicted by its last motion
 constexpr double kAgreement_px = 1.5;
 constexpr int kTrail = 15;     // pictures over which a place is drawn
 constexpr int kLongLife = 30;  // pictures: one second
@@ -40,10 +39,6 @@ struct Request {
   std::string drawing;
   int frames = 100000;
 };
-
-Eigen::Matrix2d prediction_covariance() {
-  return kPrediction_px * kPrediction_px * Eigen::Matrix2d::Identity();
-}
 
 /// A patch, turned and scaled as the pictures were since it was cut, and where it has been.
 struct Followed {
@@ -68,16 +63,11 @@ struct Frame {
   Duration matching_took{0};
 };
 
-/// Its camera is noisier and shakes more than what SearchOptions takes for granted.
-constexpr double kAcceptRatio = 4.0;
-
 /// Follows patches from picture to picture by the motion that they had before.
 class Follower {
  public:
   Follower(int width_px, int height_px)
-      : finder_({.patch_px = kPatch_px, .warp = false}, {.accept_ratio = kAcceptRatio},
-                Camera({.width_px = width_px, .height_px = height_px})),
-        new_corners_({.wanted = 40, .most_new = 12}, {}, kPatch_px, width_px, height_px) {}
+      : finder_(desk_finder(width_px, height_px)), new_corners_(desk_corners(width_px, height_px)) {}
 
   void see(const GreyImage& picture) {
     Frame& frame = frames_.emplace_back();
@@ -119,7 +109,7 @@ class Follower {
     const std::size_t n = each.places.size();
     const Eigen::Vector2d motion = n > 1 ? each.places[n - 1] - each.places[n - 2] : motion_;
     static_cast<void>(each.appearance.patch.seen_under(each.A));
-    return finder_.look_for({.predicted_px = each.places.back() + motion, .S = prediction_covariance()},
+    return finder_.look_for({.predicted_px = each.places.back() + motion, .S = desk_prediction_covariance()},
                             picture, {}, each.appearance);
   }
 
@@ -143,14 +133,12 @@ class Follower {
     std::vector<Eigen::Vector2d> places;
     for (const Followed& each : patches_)
       if (!each.ended) places.push_back(each.places.back());
-    vision::FrameBudget budget(vision::BudgetKind::kWork);
-    budget.start(std::chrono::seconds(1));
     const Duration start = thread_cpu_time();
-    const auto corners = new_corners_.find(picture, places, 0, budget);
+    const auto corners = find_more(new_corners_, picture, places);
     frame.new_corners_took = thread_cpu_time() - start;
     for (const vision::Corner& corner : corners)
       if (const auto patch = vision::cut_reference(picture, corner.u, corner.v))
-        patches_.push_back({.appearance = {.seen_from = {}, .patch = {*patch, kPatch_px}},
+        patches_.push_back({.appearance = {.seen_from = {}, .patch = {*patch, kDeskPatch_px}},
                             .places = {Eigen::Vector2d(corner.u, corner.v)},
                             .cut_in = frames_.size() - 1});
   }
@@ -162,19 +150,6 @@ class Follower {
   std::vector<Followed> patches_;
   Eigen::Vector2d motion_ = Eigen::Vector2d::Zero();  ///< of the picture as a whole
 };
-
-Result<std::vector<fs::path>> pictures_in(const Request& request) {
-  std::vector<fs::path> files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(fs::path(request.folder) / "frames", failed))
-    files.push_back(entry.path());
-  std::ranges::sort(files);
-  if (files.size() < 2)
-    return Error{
-        fmt::format("{}: expected pictures in its folder frames/, found {}", request.folder, files.size())};
-  files.resize(std::min(files.size(), static_cast<std::size_t>(request.frames)));
-  return files;
-}
 
 std::size_t sum(const std::vector<Frame>& frames, std::size_t Frame::*member) {
   std::size_t total = 0;
@@ -236,7 +211,7 @@ void print(const Follower& follower) {
   Duration matching{0};
   for (const Frame& frame : frames) matching += frame.matching_took;
   const double per_search_us = 1e6 * to_seconds(matching) / static_cast<double>(sum(frames, &Frame::sought));
-  const double windows = vision::Search().expected_windows(prediction_covariance());
+  const double windows = vision::Search().expected_windows(desk_prediction_covariance());
   fmt::print("\n{:<44}{:>10}{:>12}{:>10}\n", "thread CPU per picture, median, us", "here", "article",
              "times");
   print_block("FB2 corners, whole picture", median_us(frames, &Frame::all_corners_took), "FB2");
@@ -317,8 +292,9 @@ Result<std::string> draw(const Follower& follower, const std::vector<fs::path>& 
 }
 
 Result<void> follow_over(const Request& request) {
-  const auto files = pictures_in(request);
+  auto files = desk_pictures(request.folder);
   if (!files) return files.error();
+  files->resize(std::min(files->size(), static_cast<std::size_t>(request.frames)));
   std::optional<Follower> follower;
   std::optional<ImageSize> size;
   for (const fs::path& file : *files) {

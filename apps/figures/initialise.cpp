@@ -21,6 +21,7 @@
 #include "waymark/vision/landmark_finder.hpp"
 #include "waymark/vision/new_corners.hpp"
 
+#include "figures/desk_search.hpp"
 #include "figures/hand_held.hpp"
 
 namespace waymark {
@@ -31,15 +32,11 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kPatch_px = 16;
-constexpr double kSigma_px = 1.0;       // noise of the sequence's places, as its authors give it
-constexpr double kPrediction_px = 3.0;  // standard deviation of a known point's place before it is found
-constexpr double kDepthRatio = 0.3;     // sigma of the depth over the depth at which it is known
+constexpr double kSigma_px = 1.0;    // noise of the sequence's places, as its authors give it
+constexpr double kDepthRatio = 0.3;  // sigma of the depth over the depth at which it is known
 constexpr int kMostMisses = 10;
 constexpr std::size_t kLeastPictures = 8;
 constexpr std::size_t kMostUnderWay = 6;
-/// The camera is noisier and shakes more than what SearchOptions takes for granted.
-constexpr double kAcceptRatio = 4.0;
 
 /// The target before which the sequence begins.
 const std::array<Vector3d, 4> kTarget{
@@ -74,21 +71,18 @@ struct Candidate {
 vision::Appearance appearance_at(const GreyImage& picture, const Vector2d& pixel) {
   const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
   const auto patch = vision::cut_reference(picture, u, v);
-  return {.seen_from = {}, .patch = {patch.value_or(vision::ReferencePatch{}), kPatch_px}};
+  return {.seen_from = {}, .patch = {patch.value_or(vision::ReferencePatch{}), kDeskPatch_px}};
 }
 
 vision::LandmarkFinder finder_in(const GreyImage& picture) {
-  return {{.patch_px = kPatch_px, .warp = false},
-          {.accept_ratio = kAcceptRatio},
-          Camera({.width_px = picture.width_px(), .height_px = picture.height_px()})};
+  return desk_finder(picture.width_px(), picture.height_px());
 }
 
 /// Follows the target's corners and others for as long as three of the target's are seen.
 class Tracks {
  public:
   explicit Tracks(const GreyImage& first)
-      : finder_(finder_in(first)),
-        new_corners_({.wanted = 40, .most_new = 12}, {}, kPatch_px, first.width_px(), first.height_px()) {
+      : finder_(finder_in(first)), new_corners_(desk_corners(first.width_px(), first.height_px())) {
     HandHeld start;
     start.p_world_camera.z() = kStart_m;
     cameras.push_back(start);
@@ -106,9 +100,9 @@ class Tracks {
     std::vector<KnownSighting> seen;
     std::vector<double> du, dv;
     for (Followed& each : followed_) {
-      const Matrix2d S = kPrediction_px * kPrediction_px * Matrix2d::Identity();
       const auto finding =
-          finder_.look_for({.predicted_px = each.pixel + motion_, .S = S}, picture, {}, each.appearance);
+          finder_.look_for({.predicted_px = each.pixel + motion_, .S = desk_prediction_covariance()}, picture,
+                           {}, each.appearance);
       each.ended = finding.result != vision::Look::Result::kFound;
       if (each.ended) continue;
       du.push_back(finding.pixel.x() - each.pixel.x());
@@ -145,9 +139,7 @@ class Tracks {
   void cut_new(const GreyImage& picture, std::size_t number) {
     std::vector<Vector2d> taken;
     for (const Followed& each : followed_) taken.push_back(each.pixel);
-    vision::FrameBudget budget(vision::BudgetKind::kWork);
-    budget.start(std::chrono::seconds(1));
-    for (const vision::Corner& corner : new_corners_.find(picture, taken, 0, budget)) {
+    for (const vision::Corner& corner : find_more(new_corners_, picture, taken)) {
       const Vector2d pixel(corner.u, corner.v);
       tracks.push_back({number, lens.ray(pixel), -1.0 / kStart_m, {{number, pixel}}});
       appearances.push_back(appearance_at(picture, pixel));
@@ -360,30 +352,26 @@ Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& fi
 }
 
 Result<void> initialise_over(const Request& request) {
-  std::vector<fs::path> files;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(fs::path(request.folder) / "frames", failed))
-    files.push_back(entry.path());
-  std::ranges::sort(files);
-  if (files.empty()) return Error{request.folder + ": expected pictures in its folder frames/, found none"};
-  const auto first = read_image(files.front());
+  const auto files = desk_pictures(request.folder);
+  if (!files) return files.error();
+  const auto first = read_image(files->front());
   if (!first) return first.error();
   Tracks tracks(*first);
-  for (std::size_t k = 1; k < files.size(); ++k) {
-    const auto picture = read_image(files[k], ImageSize{first->width_px(), first->height_px()});
+  for (std::size_t k = 1; k < files->size(); ++k) {
+    const auto picture = read_image((*files)[k], ImageSize{first->width_px(), first->height_px()});
     if (!picture) return picture.error();
     if (!tracks.see(*picture)) break;
   }
   const double rms_px = bundle(tracks.lens, tracks.cameras, tracks.target, tracks.tracks);
   Initialiser initialiser(tracks, *first);
   for (std::size_t k = 0; k < tracks.cameras.size(); ++k) {
-    const auto picture = read_image(files[k]);
+    const auto picture = read_image((*files)[k]);
     if (!picture) return picture.error();
     initialiser.see(*picture);
   }
   print(initialiser, tracks, rms_px);
   if (request.drawing.empty()) return {};
-  const auto drawing = draw(initialiser, files);
+  const auto drawing = draw(initialiser, *files);
   return drawing ? write_file(request.drawing, *drawing) : Result<void>(drawing.error());
 }
 

@@ -96,5 +96,18 @@ TEST(FindPose, OneLandmarkTellsNothing) {
   EXPECT_EQ(find_pose({}, place.map()).best.agreeing, 0);
 }
 
+TEST(FindPose, CountsPairsThatStandElsewhereAndWereSeenTwice) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Place place(seed);
+    auto seen = place.look(6, true);
+    for (SeenLandmark& each : seen) each.times = 2;
+    EXPECT_EQ(count_contradictions(seen, place.map()), 0) << "seed " << seed;
+    seen[2].p_robot += Eigen::Vector2d(30.0, 0.0);
+    EXPECT_EQ(count_contradictions(seen, place.map()), 5) << "seed " << seed;
+    seen[2].times = 1;
+    EXPECT_EQ(count_contradictions(seen, place.map()), 0) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace waymark

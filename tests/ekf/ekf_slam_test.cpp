@@ -30,18 +30,13 @@ void drive(EkfSlam& filter, CircleWorld& world, int steps) {
 }
 
 TEST(EkfSlam, FollowsTheTruthWithinItsOwnUncertainty) {
-  double nees = 0.0;
-  constexpr int kRuns = 60;
-  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    CircleWorld world(seed);
+  const double nees = test::mean_pose_nees([](CircleWorld& world) {
     EkfSlam filter = make(world);
     drive(filter, world, 200);
-    const auto pose = filter.pose();
-    nees += *mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance);
-  }
-  // 99.9 % band of a mean of 60 chi-square variables with 3 degrees of freedom.
-  EXPECT_GT(nees / kRuns, 2.05);
-  EXPECT_LT(nees / kRuns, 4.12);
+    return filter.pose();
+  });
+  EXPECT_GT(nees, test::kLeastMeanNees);
+  EXPECT_LT(nees, test::kMostMeanNees);
 }
 
 TEST(EkfSlam, AddsEachLandmarkOnceAndCountsItsSightings) {

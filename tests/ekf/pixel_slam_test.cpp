@@ -154,22 +154,29 @@ TEST(PixelSlam, LinearisedAtTheLatestEstimateItIsTooSure) {
   EXPECT_GT(standard, 2.0 * invariant);
 }
 
+// They differ in who may take part, not in what the update is: before their choices have led them apart, by
+// less than either errs.
 TEST(PixelSlam, WithTheTextbookUpdateItIsTheArticlesFilter) {
   PixelSlamOptions options;
   options.init = ekf::Initialization::kArticle;
   options.capacity = 30;
-  const auto drive = [&](UpdateMethod update) {
-    Drive made(11, {.consistency = ekf::Consistency::kStandard, .update = update}, options);
-    made.run(120);
-    EXPECT_GT(made.filter.map().features().size(), 10U);
-    EXPECT_LT(made.error_m(), 0.1);
-    return made.filter.pose();
-  };
-  const auto fast = drive(UpdateMethod::kFast);
-  const auto textbook = drive(UpdateMethod::kTextbook);
-  // They differ in who may take part, not in what the update is: by no more than either errs.
-  EXPECT_LT((fast.T_world_robot.position() - textbook.T_world_robot.position()).norm(), 0.06);
-  EXPECT_TRUE(is_covariance(textbook.covariance));
+  double fast_error_m = 0.0, textbook_error_m = 0.0, difference_m = 0.0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Drive fast(seed, {.consistency = ekf::Consistency::kStandard}, options);
+    Drive textbook(seed, {.consistency = ekf::Consistency::kStandard, .update = UpdateMethod::kTextbook},
+                   options);
+    for (Drive* each : {&fast, &textbook}) {
+      each->run(15);
+      EXPECT_GT(each->count(Outcome::kMatched), 30);
+      EXPECT_TRUE(is_covariance(each->filter.pose().covariance));
+    }
+    fast_error_m += fast.error_m();
+    textbook_error_m += textbook.error_m();
+    difference_m +=
+        (fast.filter.pose().T_world_robot.position() - textbook.filter.pose().T_world_robot.position())
+            .norm();
+  }
+  EXPECT_LT(difference_m, std::min(fast_error_m, textbook_error_m));
 }
 
 TEST(PixelSlam, RaysFromTheFirstSightOnSayTheSame) {

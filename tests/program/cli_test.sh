@@ -37,7 +37,7 @@ refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles -5
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 99999999999999999999
-refuses 2 'range-bearing, range, bearing or pixel' run sim:square -o o --filter fastslam --observe sonar
+refuses 2 'range-bearing, range, bearing, pixel or markers' run sim:square -o o --filter fastslam --observe sonar
 refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o

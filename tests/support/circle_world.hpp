@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "waymark/core/filter.hpp"
+#include "waymark/core/gaussian.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/core/random.hpp"
@@ -63,5 +65,22 @@ class CircleWorld {
   Pose2 truth_;
   Pose2 mount_{0.2, -0.1, 0.3};
 };
+
+/// Mean pose NEES over 60 worlds; `drive` drives through one and returns what a filter thinks of its pose.
+template <class Drive>
+double mean_pose_nees(const Drive& drive) {
+  constexpr int kRuns = 60;
+  double nees = 0.0;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    CircleWorld world(seed);
+    const PoseEstimate pose = drive(world);
+    nees += *mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance);
+  }
+  return nees / kRuns;
+}
+
+/// 99.9 % band of a mean of 60 chi-square variables with three degrees of freedom.
+inline constexpr double kLeastMeanNees = 2.05;
+inline constexpr double kMostMeanNees = 4.12;
 
 }  // namespace waymark::test

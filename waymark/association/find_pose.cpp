@@ -23,6 +23,23 @@ Eigen::Matrix2d common(const MapState& map, int i, int j) {
 }
 double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
+/// Of a distance between two places with this covariance of their difference, along the line between them.
+double variance_along(const Eigen::Vector2d& apart, const Eigen::Matrix2d& covariance) {
+  const double length2 = apart.squaredNorm();
+  return length2 > 0.0 ? apart.dot(covariance * apart) / length2 : covariance.trace();
+}
+
+/// Can two that were seen be these two of the map?
+bool is_as_far_apart(const SeenLandmark& first, const SeenLandmark& second, const MapState& map, int a,
+                     int b) {
+  const Eigen::Vector2d seen = second.p_robot - first.p_robot;
+  const Eigen::Vector2d known = landmark(map, b) - landmark(map, a);
+  const Eigen::Matrix2d P = common(map, a, a) + common(map, b, b) - common(map, a, b) - common(map, b, a);
+  const double nu = known.norm() - seen.norm();
+  return nu * nu <=
+         kGate1 * (variance_along(known, P) + variance_along(seen, first.covariance + second.covariance));
+}
+
 /// A pose that two landmarks give.
 struct Hypothesis {
   int seen[2];
@@ -67,24 +84,17 @@ class Search {
   }
 
   void propose_by(int i, int j) {
-    const Eigen::Vector2d apart = seen_[index(j)].p_robot - seen_[index(i)].p_robot;
-    if (apart.norm() < kShortest_m) return;
-    const Eigen::Vector2d u = apart.normalized();
-    const double variance = u.dot((seen_[index(i)].covariance + seen_[index(j)].covariance) * u);
     for (const int a : candidates_[index(i)])
       for (const int b : candidates_[index(j)])
-        if (a != b && is_as_far_apart(a, b, apart.norm(), variance)) judge(hypothesis({i, j}, {a, b}));
+        if (a != b && is_long_enough(i, j, a, b) &&
+            is_as_far_apart(seen_[index(i)], seen_[index(j)], map_, a, b))
+          judge(hypothesis({i, j}, {a, b}));
   }
 
-  [[nodiscard]] bool is_as_far_apart(int a, int b, double distance_m, double variance) const {
-    const Eigen::Vector2d apart = landmark(map_, b) - landmark(map_, a);
-    const double length_m = apart.norm();
-    if (length_m < kShortest_m) return false;
-    const Eigen::Vector2d u = apart / length_m;
-    const Eigen::Matrix2d P =
-        common(map_, a, a) + common(map_, b, b) - common(map_, a, b) - common(map_, b, a);
-    const double nu = length_m - distance_m;
-    return nu * nu <= kGate1 * (u.dot(P * u) + variance);
+  /// To tell a heading.
+  [[nodiscard]] bool is_long_enough(int i, int j, int a, int b) const {
+    return (seen_[index(j)].p_robot - seen_[index(i)].p_robot).norm() >= kShortest_m &&
+           (landmark(map_, b) - landmark(map_, a)).norm() >= kShortest_m;
   }
 
   [[nodiscard]] Hypothesis hypothesis(std::pair<int, int> seen, std::pair<int, int> landmarks) const {
@@ -200,6 +210,19 @@ class Search {
 
 PoseCandidates find_pose(std::span<const SeenLandmark> seen, const MapState& map) {
   return Search(seen, map).run();
+}
+
+int count_contradictions(std::span<const SeenLandmark> seen, const MapState& map) {
+  std::vector<std::pair<const SeenLandmark*, int>> known;
+  for (const SeenLandmark& each : seen) {
+    const auto at = each.id && each.times > 1 ? std::ranges::find(map.ids, *each.id) : map.ids.end();
+    if (at != map.ids.end()) known.emplace_back(&each, static_cast<int>(at - map.ids.begin()));
+  }
+  int count = 0;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    for (std::size_t j = i + 1; j < known.size(); ++j)
+      count += !is_as_far_apart(*known[i].first, *known[j].first, map, known[i].second, known[j].second);
+  return count;
 }
 
 }  // namespace waymark

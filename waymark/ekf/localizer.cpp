@@ -18,6 +18,9 @@ constexpr int kMostDoubt = 20;
 constexpr int kLeastNamed = 3;
 constexpr int kLeastUnnamed = 5;
 constexpr int kLeastAhead = 2;
+constexpr int kTimesToBeSure = 2;      // that a landmark is seen, of its identity
+constexpr int kContradictions = 3;     // pairs of landmarks
+constexpr double kLongEnough_s = 8.0;  // of driving without a pose
 constexpr std::size_t kMostRemembered = 32;
 // Of the belief that the first update starts from: as good as nothing is known.
 const Eigen::Vector3d kAnywhere(10.0, 10.0, 1.0);
@@ -79,6 +82,7 @@ Localizer::Localizer(MapState map, EkfOptions options, const GateOptions& gate, 
 void Localizer::predict(const Motion& motion) {
   if (located_) return ekf_.predict(motion);
   if (!is_finite(motion)) return;
+  if (!is_still(motion)) driven_s_ += motion.duration_s;
   for (SeenLandmark& seen : memory_) move(seen, motion);
 }
 
@@ -96,6 +100,7 @@ void Localizer::judge(const Correction& correction) {
   ++losses_;
   located_ = false;
   doubt_ = sightings_ = 0;
+  driven_s_ = 0.0;
   memory_.clear();
 }
 
@@ -108,7 +113,7 @@ const Correction& Localizer::look_around(std::span<const Observation> observatio
   if (memory_.size() < 2) return searching_;
   const PoseCandidates found = find_pose(memory_, map_);
   if (is_enough(found)) return settle(found.best);
-  if (sightings_ >= kMostSightings && std::ssize(memory_) >= kLeastNamed) refusal_ = Error{reason(found)};
+  if (is_elsewhere(found)) refusal_ = Error{reason(found)};
   return searching_;
 }
 
@@ -121,10 +126,13 @@ void Localizer::remember(const Observation& observation) {
                           place.G_measurement * R * place.G_measurement.transpose()};
   ++sightings_;
   const std::size_t at = place_of(seen);
-  if (at < memory_.size())
+  if (at < memory_.size()) {
+    const int times = memory_[at].times + 1;
     memory_[at] = seen;
-  else if (memory_.size() < kMostRemembered)
+    memory_[at].times = times;
+  } else if (memory_.size() < kMostRemembered) {
     memory_.push_back(seen);
+  }
 }
 
 /// Where the same landmark is remembered, if it is.
@@ -156,24 +164,27 @@ bool Localizer::is_enough(const PoseCandidates& found) const {
   return agreeing >= kLeastNamed || (no_more && agreeing == 2);
 }
 
+/// Where no two landmarks stand to each other as in the map and some that were seen again contradict it,
+/// there is little to wait for: no misread number does that.
+bool Localizer::is_elsewhere(const PoseCandidates& found) const {
+  const int enough = driven_s_ < kLongEnough_s ? kContradictions : 1;
+  if (found.best.agreeing < 2 && count_contradictions(memory_, map_) >= enough) return true;
+  return sightings_ >= kMostSightings && std::ssize(memory_) >= kLeastNamed;
+}
+
 std::string Localizer::reason(const PoseCandidates& found) const {
   const int candidates = seen_of_map();
-  const auto seen = std::ssize(memory_);
-  if (candidates < kLeastNamed)
-    return fmt::format(
-        "map: the robot is not in it: of {} landmarks seen in {} sightings the map has {}; it is of another "
-        "place",
-        seen, sightings_, candidates);
+  const std::string seen = fmt::format("of {} landmarks seen in {} sightings and {:.0f} s of driving",
+                                       memory_.size(), sightings_, driven_s_);
+  if (candidates < 2)
+    return fmt::format("map: the robot is not in it: {} the map has {}; it is of another place", seen,
+                       candidates);
   if (found.best.agreeing >= kLeastUnnamed && found.best.agreeing < found.rival + kLeastAhead)
-    return fmt::format(
-        "map: the robot may be in several places of it: {} of {} landmarks seen agree on one, {} "
-        "on another",
-        found.best.agreeing, seen, found.rival);
+    return fmt::format("map: the robot may be in several places of it: {} {} agree on one, {} on another",
+                       seen, found.best.agreeing, found.rival);
   return fmt::format(
-      "map: the robot is not in it: of {} landmarks seen in {} sightings no more than {} stand as in the "
-      "map; "
-      "it is of another place",
-      seen, sightings_, found.best.agreeing);
+      "map: the robot is not in it: {} no more than {} stand as in the map; it is of another place", seen,
+      found.best.agreeing);
 }
 
 const Correction& Localizer::settle(const PoseCandidate& found) {

@@ -17,7 +17,7 @@ namespace waymark {
 /// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966).
 ///
 /// A robot whose sightings contradict the map for long is searched for anew. Where twenty sightings give no
-/// pose, the filter gives up and says why.
+/// pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the map.
 class Localizer final : public Filter {
  public:
   Localizer(MapState map, EkfOptions options, const GateOptions& gate, const Pose2& T_robot_sensor,
@@ -40,6 +40,7 @@ class Localizer final : public Filter {
   void remember(const Observation& observation);
   [[nodiscard]] std::size_t place_of(const SeenLandmark& seen) const;
   [[nodiscard]] bool is_enough(const PoseCandidates& found) const;
+  [[nodiscard]] bool is_elsewhere(const PoseCandidates& found) const;
   [[nodiscard]] std::string reason(const PoseCandidates& found) const;
   [[nodiscard]] int seen_of_map() const;
   const Correction& look_around(std::span<const Observation> observations);
@@ -55,6 +56,7 @@ class Localizer final : public Filter {
   std::optional<Error> refusal_;
   std::vector<SeenLandmark> memory_;  // of a robot that is not located
   int sightings_ = 0;                 // in it
+  double driven_s_ = 0.0;             // meanwhile
   int doubt_ = 0;                     // sightings that contradict, less those that agree
   int losses_ = 0;
   std::vector<Innovation> innovations_;

@@ -42,6 +42,12 @@ Result<std::size_t> InputFile::read(std::uint64_t position, std::span<char> into
   }
 }
 
+Result<std::string> InputFile::front(std::size_t count) const {
+  std::string bytes(count, '\0');
+  if (const auto done = read(0, bytes); !done) return done.error();
+  return bytes;
+}
+
 FileSection::FileSection(std::shared_ptr<const InputFile> file, std::uint64_t begin, std::uint64_t end)
     : file_(std::move(file)), position_(begin), end_(std::max(begin, std::min(end, file_->size()))) {}
 

@@ -37,6 +37,8 @@ class InputFile {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] Result<std::size_t> read(std::uint64_t position, std::span<char> into) const;
+  /// The first bytes; zeros behind the end.
+  [[nodiscard]] Result<std::string> front(std::size_t count) const;
 
  private:
   InputFile(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}

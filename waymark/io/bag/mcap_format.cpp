@@ -239,11 +239,11 @@ bool is_mcap(std::string_view first_bytes) { return first_bytes.starts_with(kAny
 Result<std::unique_ptr<Reader>> open_mcap(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  std::string magic(kMagic.size(), '\0');
-  if (auto done = (*file)->read(0, magic); !done) return Error{path.string() + ": " + done.error().message};
-  if (magic != kMagic)
+  const auto magic = (*file)->front(kMagic.size());
+  if (!magic) return Error{path.string() + ": " + magic.error().message};
+  if (*magic != kMagic)
     return Error{fmt::format("{}: an MCAP file of version {}; this program reads version 0", path.string(),
-                             magic.substr(kAnyVersion.size(), 1))};
+                             magic->substr(kAnyVersion.size(), 1))};
   auto index = read_index(*file);
   return std::unique_ptr<Reader>(std::make_unique<ChunkedBag>(
       path.filename().string(), *std::move(file), std::make_unique<McapFormat>(), std::move(index)));

@@ -200,12 +200,12 @@ bool is_ros1_bag(std::string_view first_bytes) { return first_bytes.starts_with(
 Result<std::unique_ptr<Reader>> open_ros1_bag(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  std::string magic(kMagic.size(), '\0');
-  if (auto done = (*file)->read(0, magic); !done) return Error{path.string() + ": " + done.error().message};
-  if (magic != kMagic)
+  const auto magic = (*file)->front(kMagic.size());
+  if (!magic) return Error{path.string() + ": " + magic.error().message};
+  if (*magic != kMagic)
     return Error{
         fmt::format("{}: a ROS bag of version {}; this program reads 2.0 (`rosbag migrate` converts)",
-                    path.string(), magic.substr(kAnyVersion.size(), 3))};
+                    path.string(), magic->substr(kAnyVersion.size(), 3))};
   const auto head = read_head(*file);
   if (!head)
     return Error{fmt::format("{}: an empty or damaged ROS bag: its first record is missing", path.string())};
