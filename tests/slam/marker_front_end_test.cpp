@@ -93,6 +93,40 @@ TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   EXPECT_EQ(front_end->see(first)[0].id->number, 1);
 }
 
+TEST_F(MarkerFrontEndTest, TakesCornersThatOthersFound) {
+  const Camera camera(test::marker_camera());
+  const auto front_end = *MarkerFrontEnd::make(marker_options(), camera);
+  const auto picture = picture_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
+  front_end->announce(picture);
+  const auto own = front_end->see(picture);
+  const std::vector<Observation> seen(own.begin(), own.end());
+  MarkerOutlines outlines =
+      (*markers::make_marker_detector(markers::marker_set(marker_options())->dictionary))
+          ->detect(picture->view());
+  std::ranges::reverse(outlines);
+  const auto told = front_end->see(outlines);
+  ASSERT_EQ(told.size(), seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(told[i].id, seen[i].id);
+    const auto& a = std::get<RangeBearing>(told[i].value);
+    const auto& b = std::get<RangeBearing>(seen[i].value);
+    const Eigen::Matrix2d S = *told[i].covariance + *seen[i].covariance;
+    EXPECT_LT(std::abs(a.range_m - b.range_m), 4.0 * std::sqrt(S(0, 0)));
+    EXPECT_LT(std::abs(a.bearing_rad - b.bearing_rad), 4.0 * std::sqrt(S(1, 1)));
+    EXPECT_GT((*told[i].covariance)(0, 0), (*seen[i].covariance)(0, 0));
+  }
+}
+
+TEST_F(MarkerFrontEndTest, RefusesCornersOfMarkersOfUnknownSize) {
+  markers::MarkerOptions options = marker_options();
+  options.size_m = 0.0;
+  options.sizes_m = "3: 0.2";
+  const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
+  const MarkerOutline square{5, {{{100.0, 100.0}, {150.0, 100.0}, {150.0, 150.0}, {100.0, 150.0}}}};
+  EXPECT_THAT(front_end->see(MarkerOutlines{square}), IsEmpty());
+  EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("nobody said how large")));
+}
+
 TEST_F(MarkerFrontEndTest, EndsWhilePicturesWait) {
   const auto picture = picture_of({{1, at(0.0, 2.0)}});
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/observation.hpp"
@@ -43,6 +48,18 @@ struct Image {
   std::shared_ptr<const std::string> encoded = nullptr;
 };
 
+/// A square marker that another program found in a picture: its corners clockwise from the upper left of its
+/// pattern, px; the centre of the first pixel is at (0, 0).
+struct MarkerOutline {
+  std::int32_t id = -1;
+  std::array<Eigen::Vector2d, 4> corners_px;
+
+  friend bool operator==(const MarkerOutline&, const MarkerOutline&) = default;
+};
+
+/// All of one picture.
+using MarkerOutlines = std::vector<MarkerOutline>;
+
 /// Where the truth sensor really was. The heading may be unknown.
 struct Truth {
   double x_m = 0.0;
@@ -50,7 +67,8 @@ struct Truth {
   std::optional<double> theta_rad;
 };
 
-using EventContent = std::variant<WheelAngles, Velocity, Steering, OdometryPose, Image, Observations, Truth>;
+using EventContent =
+    std::variant<WheelAngles, Velocity, Steering, OdometryPose, Image, MarkerOutlines, Observations, Truth>;
 
 /// What a log is made of.
 struct Event {

@@ -160,6 +160,10 @@ class LogText {
     return {};
   }
 
+  Result<void> add_content(Stamp /*stamp*/, const MarkerOutlines& /*outlines*/) {
+    return Error{"a log folder has no table for the corners of markers"};
+  }
+
   Result<void> add_content(Stamp stamp, const Image& image) {
     if (image.file.empty() && image.pixels != nullptr) return add_pixels(stamp, *image.pixels);
     return add_image_file(stamp, image);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "waymark/core/event.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/result.hpp"
 #include "waymark/markers/corners.hpp"
@@ -12,10 +13,7 @@
 namespace waymark::markers {
 
 /// A marker in a picture, its corners to about a pixel; the centre of the first pixel is at (0, 0).
-struct Marker {
-  std::int32_t id = -1;
-  Corners corners_px;
-};
+using Marker = MarkerOutline;
 
 /// Finds the markers of one dictionary. Not to be called from two threads at once; starts none.
 class MarkerDetector {

@@ -50,6 +50,8 @@ void describe(Schema& schema, MarkerOptions& o) {
   schema.text("markers.sizes_m", o.sizes_m, "sides of those that differ, m, as '3: 0.1, 7: 0.25'");
   schema.real("markers.side_sigma_px", o.side_sigma_px, {1e-3, 100.0},
               "standard deviation of one point on a side of a marker, pixels");
+  schema.real("markers.corner_sigma_px", o.corner_sigma_px, {1e-3, 100.0},
+              "noise of a corner of a marker that another program found, px, where a bag has no pictures");
   schema.real("markers.mount_sigma_deg", o.mount_sigma_deg, {0.0, 10.0},
               "standard deviation of how the camera shakes on its robot, degrees");
   schema.real("markers.max_tilt_deg", o.max_tilt_deg, {0.0, 90.0},

@@ -16,6 +16,7 @@ struct MarkerOptions {
   double size_m = 0.0;            ///< side of the black square; 0: not said
   std::string sizes_m;            ///< of those that differ, "id: size, id: size"
   double side_sigma_px = 0.08;    ///< of one point on a side
+  double corner_sigma_px = 0.3;   ///< of a corner that another program found
   double mount_sigma_deg = 0.05;  ///< of the camera on its robot from picture to picture
   double max_tilt_deg = 75.0;     ///< more edge-on markers are not used
   int confirm = 1;                ///< pictures that must show an identity before it is believed

@@ -63,6 +63,12 @@ std::variant<Observation, Refusal> MarkerSighter::sight(const ImageView& image, 
   return sight(*corners, marker.id);
 }
 
+std::variant<Observation, Refusal> MarkerSighter::sight(const Corners& corners_px, std::int32_t id) const {
+  if (markers_.size_of(id) <= 0.0) return Refusal::kNoSize;
+  const double ratio = options_.corner_sigma_px / options_.side_sigma_px;
+  return sight({corners_px, ratio * ratio * CornerCovariance::Identity()}, id);
+}
+
 std::variant<Observation, Refusal> MarkerSighter::sight(const RefinedCorners& corners,
                                                         std::int32_t id) const {
   const auto poses = estimate_marker_poses(camera_, corners, markers_.size_of(id));

@@ -48,6 +48,9 @@ class MarkerSighter {
   /// the sighting is the mean of both by their likelihoods, and their distance counts as noise.
   [[nodiscard]] std::variant<Observation, Refusal> sight(const ImageView& image, const Marker& marker) const;
 
+  /// The same from corners that another program found, each with noise of its own.
+  [[nodiscard]] std::variant<Observation, Refusal> sight(const Corners& corners_px, std::int32_t id) const;
+
   /// The same from corners that are refined already.
   [[nodiscard]] std::variant<Observation, Refusal> sight(const RefinedCorners& corners,
                                                          std::int32_t id) const;

@@ -96,17 +96,38 @@ std::span<const Observation> MarkerFrontEnd::see(const Picture& picture) {
   return sightings_;
 }
 
+std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines) {
+  BlockTimer timer(blocks_);
+  measure(outlines);
+  refuse_duplicates();
+  hold_back_new();
+  timer.finish(1);
+  return sightings_;
+}
+
 void MarkerFrontEnd::measure(const Picture& picture, std::span<const markers::Marker> found) {
   sightings_.clear();
   std::vector<std::int32_t> ids;
   for (const markers::Marker& marker : found) {
     const auto seen = sighter_.sight(*picture, marker);
     const auto* refusal = std::get_if<markers::Refusal>(&seen);
-    if (refusal != nullptr) ++refused_[static_cast<std::size_t>(*refusal)];
-    if (refusal == nullptr) sightings_.push_back(std::get<Observation>(seen));
+    take(seen);
     if (refusal == nullptr || *refusal != markers::Refusal::kNoBorder) ids.push_back(marker.id);
   }
   check_.add(picture, ids);
+}
+
+void MarkerFrontEnd::measure(const MarkerOutlines& outlines) {
+  sightings_.clear();
+  for (const MarkerOutline& outline : outlines) take(sighter_.sight(outline.corners_px, outline.id));
+  std::ranges::stable_sort(sightings_, {}, [](const Observation& each) { return *each.id; });
+}
+
+void MarkerFrontEnd::take(const std::variant<Observation, markers::Refusal>& seen) {
+  if (const auto* refusal = std::get_if<markers::Refusal>(&seen))
+    ++refused_[static_cast<std::size_t>(*refusal)];
+  else
+    sightings_.push_back(std::get<Observation>(seen));
 }
 
 /// Nobody knows which of them is the one of the map. They come in the order of their identities.

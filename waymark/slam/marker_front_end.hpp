@@ -11,8 +11,10 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
+#include "waymark/core/event.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/core/grey_image.hpp"
@@ -80,6 +82,8 @@ class MarkerFrontEnd {
 
   /// The markers in a picture, each identity once. Valid until the next call.
   [[nodiscard]] std::span<const Observation> see(const Picture& picture);
+  /// The same where another program has found them.
+  [[nodiscard]] std::span<const Observation> see(const MarkerOutlines& outlines);
 
   [[nodiscard]] const FunctionBlocks& blocks() const { return blocks_; }
 
@@ -91,6 +95,8 @@ class MarkerFrontEnd {
                  std::unique_ptr<markers::MarkerDetector> detector);
 
   void measure(const Picture& picture, std::span<const markers::Marker> found);
+  void measure(const MarkerOutlines& outlines);
+  void take(const std::variant<Observation, markers::Refusal>& seen);
   void refuse_duplicates();
   void hold_back_new();
 

@@ -96,7 +96,8 @@ void Pipeline::push(Event event) {
 
 bool Pipeline::is_observed(const EventContent& content) const {
   return std::holds_alternative<Observations>(content) ||
-         (front_ends_.any() && std::holds_alternative<Image>(content));
+         (front_ends_.any() && std::holds_alternative<Image>(content)) ||
+         (front_ends_.markers != nullptr && std::holds_alternative<MarkerOutlines>(content));
 }
 
 /// Markers are found while a picture waits for its turn.
@@ -132,6 +133,8 @@ void Pipeline::process_front_group() {
     const Event& event = waiting_.front();
     if (const auto* observations = std::get_if<Observations>(&event.content)) {
       collect(*observations);
+    } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
+      collect_markers(front_ends_.markers->see(*outlines));
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
     } else {
@@ -163,15 +166,20 @@ const Correction* Pipeline::correct() {
 }
 
 void Pipeline::see_markers() {
+  collect_markers(front_ends_.markers->see(picture_));
+  last_picture_ = std::exchange(picture_, nullptr);
+}
+
+/// Of one picture.
+void Pipeline::collect_markers(std::span<const Observation> sightings) {
   ++counts_.pictures;
-  for (const Observation& seen : front_ends_.markers->see(picture_)) {
+  for (const Observation& seen : sightings) {
     ++counts_.observations;
     if (is_usable(sensor_, seen.value))
       batch_.push_back(seen);
     else
       ++counts_.unusable;
   }
-  last_picture_ = std::exchange(picture_, nullptr);
 }
 
 void Pipeline::predict(Stamp stamp) {

@@ -96,6 +96,7 @@ class Pipeline {
   void announce(const Event& event);
   void take(const Image& image);
   void see_markers();
+  void collect_markers(std::span<const Observation> sightings);
   [[nodiscard]] const Correction* correct();
   [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;

@@ -97,7 +97,7 @@ bool looks_into_pictures(Observe observe) {
 
 bool shows_pixels(const EventContent& content) {
   const auto* observations = std::get_if<Observations>(&content);
-  return std::holds_alternative<Image>(content) ||
+  return std::holds_alternative<Image>(content) || std::holds_alternative<MarkerOutlines>(content) ||
          (observations != nullptr && std::ranges::any_of(*observations, [](const Observation& each) {
             return std::holds_alternative<Pixel>(each.value);
           }));

@@ -293,6 +293,38 @@ TEST(BagSource, FollowsTheFramesFromTheRobotToTheCamera) {
   EXPECT_THAT(source->notes(), Not(Contains(HasSubstr("tf_static"))));
 }
 
+std::string tag_corners(double stamp_s, std::initializer_list<std::pair<double, double>> corners) {
+  Wire wire = with_header(stamp_s, "camera");
+  wire.add<std::uint32_t>(1).text("tag25h9").add<std::int32_t>(17).add<std::int32_t>(0);
+  wire.add<float>(0.0F).add<float>(50.0F).add(20.0).add(30.0);
+  for (const auto& [x, y] : corners) wire.add(x).add(y);
+  for (int i = 0; i < 9; ++i) wire.add(0.0);
+  return wire.bytes();
+}
+
+TEST(BagSource, TakesTheCornersOfTagsWhereThereAreNoPictures) {
+  for (const bool pictures : {false, true}) {
+    auto made = std::make_unique<MadeBag>();
+    const auto tags = made->topic("/detections", "apriltag_msgs/AprilTagDetectionArray");
+    if (pictures) {
+      const auto images = made->topic("/image_rect", "sensor_msgs/Image");
+      made->add(images, 1.0, mono(1.0, "camera", "mono8", 2, "abcd"));
+    }
+    // From the lower left, against the clock, as the type has them.
+    made->add(tags, 1.0, tag_corners(1.0, {{10.5, 40.5}, {30.5, 41.5}, {31.5, 20.5}, {11.5, 19.5}}));
+    const auto source = source_of(std::move(made));
+    const auto outlines = test::only<MarkerOutlines>(test::read_all(*source).events);
+    ASSERT_EQ(outlines.size(), pictures ? 0U : 1U);
+    if (pictures) continue;
+    EXPECT_EQ(outlines[0].second[0].id, 17);
+    EXPECT_EQ(outlines[0].second[0].corners_px[0], Eigen::Vector2d(11.0, 19.0));
+    EXPECT_EQ(outlines[0].second[0].corners_px[2], Eigen::Vector2d(30.0, 41.0));
+    EXPECT_THAT(source->info().settings, Contains(std::pair<std::string, std::string>("observe", "markers")));
+    EXPECT_THAT(source->info().settings,
+                Contains(std::pair<std::string, std::string>("markers.dictionary", "apriltag_25h9")));
+  }
+}
+
 TEST(BagSource, RefusesABagWithoutMessages) {
   EXPECT_EQ(make_bag_source(std::make_unique<MadeBag>(), "made.bag", {}).error().message,
             "made.bag: the bag holds no messages");

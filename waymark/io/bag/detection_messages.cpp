@@ -34,6 +34,12 @@ constexpr std::array kDetectionTypes{
     DetectionType{"isaac_ros_apriltag_interfaces/AprilTagDetectionArray", "detections.id",
                   "detections.pose.pose.pose.position"}};
 
+std::optional<std::int32_t> identity_of(double number) {
+  constexpr double kLargestId = std::numeric_limits<std::int32_t>::max();
+  if (!(number >= 0.0 && number <= kLargestId)) return std::nullopt;
+  return static_cast<std::int32_t>(number);
+}
+
 class ToObservations {
  public:
   explicit ToObservations(const CameraMount& mount)
@@ -49,10 +55,9 @@ class ToObservations {
     Observations observations;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const Eigen::Vector3d p_sensor = R_sensor_camera_ * Eigen::Vector3d(x[i], y[i], z[i]);
-      constexpr double kLargestId = std::numeric_limits<std::int32_t>::max();
-      const bool has_id = ids[i] >= 0.0 && ids[i] <= kLargestId;
-      if (!has_id || !p_sensor.allFinite()) continue;
-      observations.push_back({LandmarkId{LandmarkId::Family::kMarker, static_cast<std::int32_t>(ids[i])},
+      const auto id = identity_of(ids[i]);
+      if (!id || !p_sensor.allFinite()) continue;
+      observations.push_back({LandmarkId{LandmarkId::Family::kMarker, *id},
                               RangeBearing{p_sensor.head<2>().norm(), std::atan2(p_sensor.y(), p_sensor.x())},
                               std::nullopt});
     }
@@ -62,6 +67,26 @@ class ToObservations {
  private:
   Eigen::Matrix3d R_sensor_camera_;
 };
+
+constexpr std::string_view kOutlines = "apriltag_msgs/AprilTagDetectionArray";
+
+/// libapriltag, whose corners these are, begins at the lower left, goes counter-clockwise, and counts from
+/// the edge of the first pixel.
+Result<EventContent> to_outlines(const MessageDecoder& message) {
+  const auto ids = message.numbers(2), x = message.numbers(3), y = message.numbers(4);
+  if (x.size() != 4 * ids.size() || y.size() != x.size())
+    return Error{"it has not four corners for each identity"};
+  MarkerOutlines outlines;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto id = identity_of(ids[i]);
+    if (!id) continue;
+    const auto corner = [&](std::size_t k) {
+      return Eigen::Vector2d(x[4 * i + k] - 0.5, y[4 * i + k] - 0.5);
+    };
+    outlines.push_back({*id, {corner(3), corner(2), corner(1), corner(0)}});
+  }
+  return EventContent(std::move(outlines));
+}
 
 }  // namespace
 
@@ -81,6 +106,21 @@ Result<TopicReader> detection_reader(const Topic& topic, const CameraMount& moun
     error = decoder.error();
   }
   return error;
+}
+
+bool is_outline(std::string_view type) { return type == kOutlines; }
+
+Result<TopicReader> outline_reader(const Topic& topic) {
+  auto decoder = MessageDecoder::make(
+      topic, {after_stamp({"detections.id", "detections.corners.x", "detections.corners.y"}), {}});
+  if (!decoder) return decoder.error();
+  return TopicReader{*std::move(decoder), true, to_outlines};
+}
+
+std::string outline_dictionary(const Topic& topic, std::string_view bytes) {
+  auto message = MessageDecoder::make(topic, {{}, {"detections.family"}});
+  if (!message || !message->decode(bytes) || !message->text(0).starts_with("tag")) return "";
+  return "apriltag_" + std::string(message->text(0).substr(3));
 }
 
 }  // namespace waymark::bag

@@ -13,4 +13,13 @@ namespace waymark::bag {
 /// that is the landmark sensor of detection_sensor(). A message without markers says that none was seen.
 [[nodiscard]] Result<TopicReader> detection_reader(const Topic& topic, const CameraMount& mount);
 
+/// Of markers whose corners are given, and not where they are.
+[[nodiscard]] bool is_outline(std::string_view type);
+
+/// Reads corners of markers (MarkerOutlines).
+[[nodiscard]] Result<TopicReader> outline_reader(const Topic& topic);
+
+/// The family of the first tag in a message as markers.dictionary spells it; empty where there is none.
+[[nodiscard]] std::string outline_dictionary(const Topic& topic, std::string_view bytes);
+
 }  // namespace waymark::bag

@@ -55,6 +55,13 @@ constexpr std::array kStandardTypes{
     StandardType{"aruco_opencv_msgs/BoardPose", "string board_name\ngeometry_msgs/Pose pose\n"},
     StandardType{"aruco_opencv_msgs/ArucoDetection",
                  "std_msgs/Header header\nMarkerPose[] markers\nBoardPose[] boards\n"},
+    StandardType{"apriltag_msgs/Point", "float64 x\nfloat64 y\n"},
+    StandardType{
+        "apriltag_msgs/AprilTagDetection",
+        "string family\nint32 id\nint32 hamming\nfloat32 goodness\nfloat32 decision_margin\nPoint centre\n"
+        "Point[4] corners\nfloat64[9] homography\n"},
+    StandardType{"apriltag_msgs/AprilTagDetectionArray",
+                 "std_msgs/Header header\nAprilTagDetection[] detections\n"},
     StandardType{"ros2_aruco_interfaces/ArucoMarkers",
                  "std_msgs/Header header\nint64[] marker_ids\ngeometry_msgs/Pose[] poses\n"},
 };

@@ -19,6 +19,7 @@ namespace waymark::bag {
 namespace {
 
 constexpr const char* kNone = "none";
+constexpr int kImageOrder = 3;
 
 /// What a topic can be used for.
 struct Role {
@@ -30,6 +31,7 @@ struct Role {
 };
 
 int detection_rank(const Topic& topic) { return is_detection(topic.type) ? 0 : -1; }
+int outline_rank(const Topic& topic) { return is_outline(topic.type) ? 0 : -1; }
 int camera_rank(const Topic& topic) { return topic.type == kCameraInfo ? 0 : -1; }
 int transform_rank(const Topic& topic) {
   return topic.type == kTransforms && topic.name.ends_with("tf_static") ? 0 : -1;
@@ -85,7 +87,7 @@ class Planner {
 
   void look_at_first_messages() {
     std::vector<bool> wanted(topics().size(), false);
-    for (const auto& rank : {motion_rank, detection_rank, image_rank, camera_rank})
+    for (const auto& rank : {motion_rank, detection_rank, outline_rank, image_rank, camera_rank})
       for (const std::size_t place : fit(rank)) wanted[place] = true;
     bag_.rewind(wanted);
     auto missing = std::ranges::count(wanted, true);
@@ -184,7 +186,7 @@ class Planner {
   }
 
   Result<void> choose_images() {
-    const Role role{"images", "input.image_topic", 3, image_rank, image_reader};
+    const Role role{"images", "input.image_topic", kImageOrder, image_rank, image_reader};
     const auto place = choose(role, options_.image_topic);
     if (!place) return place.error();
     if (*place) camera_frame_ = read_frame(topics()[**place], first_[**place], "header.frame_id");
@@ -221,7 +223,9 @@ class Planner {
   }
 
   void take_camera(std::size_t place, const std::string& images) {
-    const bool rectified = images.find("image_rect") != std::string::npos;
+    // Tags are looked for in rectified images.
+    const bool rectified =
+        images.empty() ? !fit(outline_rank).empty() : images.find("image_rect") != std::string::npos;
     const auto camera = read_camera_info(topics()[place], first_[place], rectified);
     if (camera) {
       plan_.info.settings = lens_settings(*camera);
@@ -237,9 +241,10 @@ class Planner {
   /// The user's word, else that of tf_static, else the camera looks ahead.
   void settle_mount() {
     if (camera_frame_.empty())
-      for (const std::size_t place : fit(detection_rank))
-        if (camera_frame_.empty() && first_.contains(place))
-          camera_frame_ = read_frame(topics()[place], first_[place], "header.frame_id");
+      for (const auto& rank : {detection_rank, outline_rank})
+        for (const std::size_t place : fit(rank))
+          if (camera_frame_.empty() && first_.contains(place))
+            camera_frame_ = read_frame(topics()[place], first_[place], "header.frame_id");
     mount_ = options_.mount;
     if (mount_) return;
     if (const auto T_robot_camera = camera_on_robot()) {
@@ -275,13 +280,14 @@ class Planner {
   }
 
   Result<void> choose_detections() {
+    if (names_outlines()) return choose_outlines();
     const CameraMount mount = mount_.value_or(CameraMount{});
     const Role role{"observations", "input.observation_topic", 2, detection_rank,
                     [mount](const Topic& topic) { return detection_reader(topic, mount); }};
     const auto place = choose(role, options_.observation_topic);
     if (!place) return place.error();
     has_detections_ = place->has_value();
-    if (!has_detections_) return {};
+    if (!has_detections_) return choose_outlines();
     add_setting("sensor.x_m", mount.x_m);
     add_setting("sensor.y_m", mount.y_m);
     add_setting("sensor.yaw_deg", mount.yaw_deg);
@@ -292,6 +298,34 @@ class Planner {
                       "camera.mount_x_m and its kind say otherwise",
                       camera_frame_));
     return {};
+  }
+
+  /// Pictures are better than corners that were found in them: what stands around a marker tells how good
+  /// they are.
+  Result<void> choose_outlines() {
+    if (has_images() && !names_outlines()) return {};
+    std::erase_if(plan_.used, [](const auto& used) { return used.second.order == kImageOrder; });
+    const auto place =
+        choose({"corners of markers", "input.observation_topic", 2, outline_rank, outline_reader},
+               options_.observation_topic);
+    if (!place) return place.error();
+    has_outlines_ = place->has_value();
+    if (!has_outlines_) return {};
+    plan_.info.settings.emplace_back("observe", "markers");
+    const std::string dictionary = outline_dictionary(topics()[**place], first_[**place]);
+    if (!dictionary.empty()) plan_.info.settings.emplace_back("markers.dictionary", dictionary);
+    return {};
+  }
+
+  [[nodiscard]] bool names_outlines() const {
+    const std::string& named = options_.observation_topic;
+    return std::ranges::any_of(fit(outline_rank), [&](std::size_t i) {
+      return topics()[i].name == named || topics()[i].name == "/" + named;
+    });
+  }
+
+  [[nodiscard]] bool has_images() const {
+    return std::ranges::any_of(plan_.used, [](const auto& used) { return used.second.order == kImageOrder; });
   }
 
   Result<void> choose_truth() {
@@ -305,10 +339,8 @@ class Planner {
   }
 
   void settle_info() {
-    const bool has_images =
-        std::ranges::any_of(plan_.used, [](const auto& used) { return used.second.order == 3; });
-    plan_.info.only_pixels = has_images && !has_detections_;
-    if (!has_images && !has_detections_)
+    plan_.info.only_pixels = has_images() && !has_detections_;
+    if (!has_images() && !has_detections_ && !has_outlines_)
       plan_.notes.emplace_back(
           "the bag shows no landmarks, in images or as detected markers: only dead reckoning");
     std::vector<std::string> unused;
@@ -317,8 +349,8 @@ class Planner {
       const auto use = uses_.find(i);
       plan_.info.topics.push_back({name, type, messages, use == uses_.end() ? "" : use->second});
       const bool known = std::ranges::any_of(
-          std::initializer_list<int (*)(const Topic&)>{motion_rank, detection_rank, image_rank, camera_rank,
-                                                       transform_rank},
+          std::initializer_list<int (*)(const Topic&)>{motion_rank, detection_rank, outline_rank, image_rank,
+                                                       camera_rank, transform_rank},
           [&](auto rank) { return rank(topics()[i]) >= 0; });
       if (!known || encoding == Encoding::kOther) unused.push_back(fmt::format("{} ({})", name, type));
     }
@@ -338,6 +370,7 @@ class Planner {
   std::string camera_frame_;
   std::optional<CameraMount> mount_;
   bool has_detections_ = false;
+  bool has_outlines_ = false;
 };
 
 }  // namespace
