@@ -48,7 +48,7 @@ function logTable(data, loss) {
   return panel("Each log before and after", { note: "Run as a whole; grey before, green where it is better, red where it is worse" },
     table(h("tr", {}, h("th", {}, "Log"), [data.score, ...shown.map(([, title]) => title)].map((title) => h("th", { class: "num", colspan: 2 }, title))),
       data.logs.map((log) => h("tr", {}, h("th", { scope: "row" }, log.name), beforeAfter(...log.score, loss),
-        shown.map(([name, , badness]) => beforeAfter(log.before[name], log.after[name], badness))))));
+        shown.flatMap(([name, , badness]) => beforeAfter(log.before[name], log.after[name], badness))))));
 }
 
 const data = JSON.parse(document.getElementById("tune-data").textContent);
