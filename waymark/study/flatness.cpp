@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -13,6 +14,7 @@ namespace {
 constexpr double kFall = 2.0;
 constexpr double kFirstStep = 0.1;  // of a key's first step in the search
 constexpr int kMostSteps = 9;
+constexpr int kMostInwards = 4;
 
 /// One side of one key, followed outwards.
 struct Side {
@@ -31,6 +33,14 @@ double crossing(const std::pair<double, double>& before, const std::pair<double,
   const auto root = [](double fall) { return std::sqrt(std::max(fall, 0.0)); };
   const double part = (std::sqrt(kFall) - root(before.second)) / (root(after.second) - root(before.second));
   return std::lerp(before.first, after.first, std::clamp(part, 0.0, 1.0));
+}
+
+/// Finds the reach of a side from its points.
+void close(Side& side) {
+  const auto fallen = [](const auto& point) { return point.second >= kFall; };
+  const auto after = std::ranges::find_if(side.points, fallen);
+  side.open = after == side.points.end();
+  side.reach = side.open ? side.points.back().first : crossing(*std::prev(after), *after);
 }
 
 class Explorer {
@@ -52,17 +62,25 @@ class Explorer {
   [[nodiscard]] std::optional<Side> follow(std::size_t key, int sign, double value) const {
     const double end = limit(problem_.keys()[key], optimum_[key], sign);
     Side side{{{0.0, 0.0}}, end, true};
-    double distance = kFirstStep * problem_.keys()[key].first_step();
-    for (int step = 0; step < kMostSteps && side.open; ++step, distance *= 2.0) {
-      const double d = std::min(distance, end);
-      if (d <= side.points.back().first) break;
-      const auto there = score(beside(key, sign * d));
-      if (!there) return std::nullopt;
-      side.points.emplace_back(d, value - problem_.value(problem_.total(*there)));
-      side.open = side.points.back().second < kFall;
+    const auto look = [&](double distance) {
+      const auto there = score(beside(key, sign * distance));
+      if (there) side.points.emplace_back(distance, value - problem_.value(problem_.total(*there)));
+      return there.has_value();
+    };
+    double distance = std::min(end, kFirstStep * problem_.keys()[key].first_step());
+    double inwards = distance;
+    for (int step = 0; step < kMostSteps && distance > side.points.back().first; ++step) {
+      if (!look(distance)) return std::nullopt;
+      if (side.points.back().second >= kFall) break;
+      distance = std::min(end, 2.0 * distance);
     }
-    const std::size_t n = side.points.size();
-    side.reach = side.open ? side.points.back().first : crossing(side.points[n - 2], side.points[n - 1]);
+    for (int step = 0; step < kMostInwards && side.points.size() > 1 && side.points[1].second >= kFall;
+         ++step) {
+      inwards *= 0.5;
+      if (!look(inwards)) return std::nullopt;
+      std::ranges::sort(side.points);
+    }
+    close(side);
     return side;
   }
 
@@ -160,17 +178,17 @@ KeyFlatness flatness_of(const TuneKey& key, double at, const std::array<Side, 2>
   flatness.high = at + std::min(limit(key, at, 1), growth * sides[1].reach);
   flatness.open_low = sides[0].open;
   flatness.open_high = sides[1].open;
-  for (auto point = sides[0].points.rbegin(); point != sides[0].points.rend(); ++point)
-    flatness.slice.emplace_back(at - point->first, -point->second);
-  for (auto point = sides[1].points.begin() + 1; point != sides[1].points.end(); ++point)
-    flatness.slice.emplace_back(at + point->first, -point->second);
+  for (const auto& [distance, fall] : sides[0].points) flatness.slice.emplace_back(at - distance, -fall);
+  for (const auto& [distance, fall] : sides[1].points)
+    if (distance > 0.0) flatness.slice.emplace_back(at + distance, -fall);
+  std::ranges::sort(flatness.slice);
   return flatness;
 }
 
 /// Where a side rose instead of falling.
 void note_best(const Sides& sides, const TunePoint& optimum, Flatness& flatness) {
   for (std::size_t key = 0; key < sides.size(); ++key)
-    for (const std::size_t side : {0, 1})
+    for (std::size_t side = 0; side < 2; ++side)
       for (const auto& [distance, fall] : sides[key][side].points)
         if (-fall > flatness.gained) {
           flatness.gained = -fall;

@@ -55,9 +55,9 @@ std::vector<std::string> motion_keys(OdometryKind odometry) {
 }
 
 std::vector<std::string> sensor_keys(Observe observe) {
-  const std::vector<std::string> range{"sensor.range_sigma_m", "sensor.range_sigma_ratio",
-                                       "sensor.lasting_range_sigma_ratio"};
-  const std::vector<std::string> bearing{"sensor.bearing_sigma_deg", "sensor.lasting_bearing_sigma_deg"};
+  std::vector<std::string> range{"sensor.range_sigma_m", "sensor.range_sigma_ratio",
+                                 "sensor.lasting_range_sigma_ratio"};
+  std::vector<std::string> bearing{"sensor.bearing_sigma_deg", "sensor.lasting_bearing_sigma_deg"};
   switch (observe) {
     case Observe::kRangeBearing: {
       std::vector<std::string> both = range;

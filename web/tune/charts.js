@@ -6,6 +6,7 @@ import * as format from "../report/format.js";
 import { color } from "../report/theme.js";
 
 export const FALL = 2; // units that an interval allows
+const MANY = 20; // times: from here on an axis is logarithmic
 const DEPTH = 5; // times FALL: what of a profile is shown
 
 // Vertical lines at the old and the new value, and the interval shaded.
@@ -37,17 +38,20 @@ export function profile(key) {
   const points = key.slice.filter(([, score]) => score >= -DEPTH * FALL);
   const xs = [...points.map(([x]) => x), key.before, key.after];
   const [least, most] = [Math.min(...xs), Math.max(...xs)];
+  const wide = key.logarithmic && most / least >= MANY;
+  const margin = 0.03 * (most - least);
   const line = { label: "score less the best", color: "accent", width: 2 };
   const options = () => ({
     padding: PADDING_PX,
     cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
     legend: { markers: { width: 2, stroke: () => "var(--accent)", fill: () => "transparent" } },
     scales: {
-      x: { time: false, distr: key.logarithmic ? 3 : 1, range: () => (key.logarithmic ? [least / 1.1, most * 1.1] : [least, most]) },
+      x: { time: false, distr: wide ? 3 : 1, range: () => (wide ? [least / 1.1, most * 1.1] : [least - margin, most + margin]) },
       y: { range: () => [-DEPTH * FALL, FALL] },
     },
     axes: [
-      axis({ size: 26, gap: 4, space: 60, values: (_, splits) => splits.map((v) => (v === null ? "" : format.plain(v, 3))) }),
+      axis({ size: 26, gap: 4, space: 60, values: (_, splits) => splits.map((v) => (v === null ? "" : format.plain(v, 3))),
+        ...(wide ? { filter: (_, splits) => splits.map((v) => (Number.isInteger(Math.round(Math.log10(v) * 1e6) / 1e6) ? v : null)) } : {}) }),
       valueAxis(),
     ],
     series: [{ label: "value", value: (_, v) => (v === null ? "–" : format.number(v, 4)) },
