@@ -23,8 +23,9 @@ waymark_dependency(JPEG)
 waymark_dependency(BZip2)
 waymark_dependency(SQLite3)
 # Linked by their names: Debian's libmatio-dev has neither a CMake package nor a .pc that works without HDF5's own, and
-# its liblz4-dev and libzstd-dev have no CMake package that other systems have, too.
-foreach(library IN ITEMS matio lz4 zstd)
+# its liblz4-dev and libzstd-dev have no CMake package that other systems have, too; what finds NLopt may find the package of
+# its C++ interface instead.
+foreach(library IN ITEMS matio lz4 zstd nlopt)
   find_library(WAYMARK_${library} ${library} REQUIRED)
   mark_as_advanced(WAYMARK_${library})
 endforeach()

@@ -24,6 +24,7 @@ void add_eval(CLI::App& app, Work& work);
 void add_check(CLI::App& app, Work& work);
 void add_bench(CLI::App& app, Work& work);
 void add_sweep(CLI::App& app, Work& work);
+void add_tune(CLI::App& app, Work& work);
 void add_map(CLI::App& app, Work& work);
 void add_config(CLI::App& app, Work& work);
 

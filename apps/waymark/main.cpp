@@ -69,6 +69,7 @@ int run_program(int argc, char** argv) {
   add_sim(app, work);
   add_eval(app, work);
   add_sweep(app, work);
+  add_tune(app, work);
   add_check(app, work);
   add_bench(app, work);
   add_map(app, work);

@@ -105,6 +105,15 @@ TEST_F(ConfigTest, TakesLimitsThemselvesAndRefusesWhatIsBeyond) {
   EXPECT_EQ(options_.probability, 1.0) << "a refused value changes nothing";
 }
 
+TEST_F(ConfigTest, TellsTheLimitsOfRealNumbers) {
+  ASSERT_TRUE(schema_.limits("gate.probability").has_value());
+  EXPECT_EQ(schema_.limits("gate.probability")->low, 0.5);
+  EXPECT_EQ(schema_.limits("gate.probability")->high, 1.0);
+  for (const char* other :
+       {"filter.particles", "seed", "gate.verbose", "run.name", "run.colour", "no.such.key"})
+    EXPECT_FALSE(schema_.limits(other).has_value()) << other;
+}
+
 TEST_F(ConfigTest, RefusesWhatIsNotOfTheType) {
   for (const char* text : {"", "x", "0.7x", " 0.7", "0,7", "nan", "true"})
     EXPECT_NE(error_of("gate.probability", text), "");

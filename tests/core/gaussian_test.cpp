@@ -74,6 +74,14 @@ TEST(MahalanobisSquared, IsNothingWhereSIsNotPositiveOrAnythingIsNotFinite) {
   EXPECT_FALSE(mahalanobis_squared<2>(Eigen::Vector2d(kInfinity, 0.0), I).has_value());
 }
 
+TEST(LogGaussian, IsTheLogOfTheDensity) {
+  const Eigen::Vector2d nu(0.3, -0.2);
+  const Eigen::Matrix2d S{{0.4, 0.1}, {0.1, 0.2}};
+  const double density =
+      std::exp(-0.5 * nu.dot(S.inverse() * nu)) / std::sqrt((2.0 * M_PI * S).determinant());
+  EXPECT_NEAR(log_gaussian<2>(*mahalanobis_squared<2>(nu, S), S), std::log(density), 1e-12);
+}
+
 TEST(Gaussian, IsValidWithAFiniteMeanAndACovariance) {
   Gaussian<2> gaussian;
   EXPECT_TRUE(gaussian.is_valid());

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "support/allocation_counter.hpp"
@@ -60,6 +61,39 @@ TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   EXPECT_EQ(correction.innovations[0].outcome, Outcome::kGated);
   EXPECT_GT(correction.innovations[0].nis, correction.innovations[0].gate);
   EXPECT_EQ(filter.pose().T_world_robot, before.T_world_robot);
+}
+
+/// Whatever is measured, from the whole belief with plain matrices.
+template <class Model>
+double plain_log_density(const EkfSlam& filter, const Pose2& mount, int landmark, const Observation& seen,
+                         const typename Model::Value& z) {
+  const MapState map = filter.save();
+  const auto h = Model::linearize(map.T_world_robot, mount, map.landmarks.segment<2>(2 * landmark));
+  Eigen::Matrix<double, Model::kDim, Eigen::Dynamic> H =
+      Eigen::MatrixXd::Zero(Model::kDim, map.covariance.cols());
+  H.leftCols(3) = h.H_pose;
+  H.middleCols(3 + 2 * landmark, 2) = h.H_landmark;
+  const Eigen::Matrix<double, Model::kDim, Model::kDim> S =
+      H * map.covariance * H.transpose() +
+      seen.covariance.value().template topLeftCorner<Model::kDim, Model::kDim>();
+  const Eigen::Matrix<double, Model::kDim, 1> nu = Model::innovation(z, h.predicted);
+  return -0.5 * (nu.dot(S.inverse() * nu) + std::log((2.0 * kPi * S).determinant()));
+}
+
+TEST(EkfSlam, TellsHowLikelyASightingWas) {
+  CircleWorld world(4);
+  EkfSlam filter({ekf::Consistency::kStandard, 20}, {}, world.mount());
+  drive(filter, world, 30);
+  for (const int sighted : {0, 3}) {  // the landmark that it says it is of, and another: gated
+    Observation seen = world.sight(sighted);
+    seen.id->number = 0;
+    const auto z = std::get<RangeBearing>(seen.value);
+    const double both = plain_log_density<RangeBearingModel>(filter, world.mount(), 0, seen, z);
+    EXPECT_NEAR(filter.correct({&seen, 1}).innovations[0].log_density, both, 1e-6 * std::abs(both));
+    seen.value = Range{z.range_m};
+    const double range = plain_log_density<RangeModel>(filter, world.mount(), 0, seen, {z.range_m});
+    EXPECT_NEAR(filter.correct({&seen, 1}).innovations[0].log_density, range, 1e-6 * std::abs(range));
+  }
 }
 
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {

@@ -383,6 +383,24 @@ TEST(FastSlam, SnapshotAndSaveAreTheMomentsOfTheMixture) {
   EXPECT_GT(map.covariance.topRightCorner(3, 16).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+TEST(FastSlam, TellsHowLikelyASightingWas) {
+  CircleWorld world(4);
+  FastSlam filter(with_particles(1), {}, world.sensor(), 1);
+  const Observation first = world.sight(0);
+  filter.correct({&first, 1});
+  Observation seen = world.sight(0);
+  const auto landmark = filter.snapshot().landmarks[0];
+  const auto h = RangeBearingModel::linearize({}, world.mount(), landmark.position_m.head<2>());
+  const Eigen::Matrix2d S =
+      h.H_landmark * landmark.covariance.topLeftCorner<2, 2>() * h.H_landmark.transpose() + *seen.covariance;
+  const auto& z = std::get<RangeBearing>(seen.value);
+  const Eigen::Vector2d nu = RangeBearingModel::innovation(z, h.predicted);
+  const double plain = -0.5 * (nu.dot(S.inverse() * nu) + std::log((2.0 * kPi * S).determinant()));
+  const Innovation told = filter.correct({&seen, 1}).innovations[0];
+  EXPECT_EQ(told.outcome, Outcome::kMatched);
+  EXPECT_NEAR(told.log_density, plain, 1e-3);  // particles are single precision
+}
+
 TEST(FastSlam, SaveFollowsAMotionThatNoParticleHasMade) {
   CircleWorld world(11);
   FastSlamOptions options;

@@ -324,8 +324,38 @@ else
   echo 'SKIPPED: no mpirun on this machine'
 fi
 
+# Tuning: a config that can be run with, the same from any number of threads, and what it refuses.
+quick_tune=(sim:square --set sim.side_m=2 --set sim.speed_mps=1 --set sim.landmarks=8 --set ekf.capacity=8)
+sigmas=(--keys sensor.range_sigma_m,sensor.bearing_sigma_deg)
+does tune "${quick_tune[@]}" "${sigmas[@]}" -o t1 --threads 1
+grep -q 'good' out.txt || fail 'tune does not say how flat it is'
+does tune "${quick_tune[@]}" "${sigmas[@]}" -o t2 --threads 2 --json
+grep -q '"held_out"' out.txt || fail 'tune --json has no held-out scores'
+cmp -s t1/tuned.yaml t2/tuned.yaml || fail 'tune depends on the number of threads'
+[ -s t1/report.html ] || fail 'tune wrote no report'
+does run "${quick_tune[@]}" --config t1/tuned.yaml -o o
+refuses 2 'logs' tune
+refuses 2 'nowhere' tune nowhere -o o
+refuses 2 'close keys: sensor.range_sigma_m' tune "${quick_tune[@]}" --keys sensor.range_sigma -o o
+refuses 2 'filter is no real number' tune "${quick_tune[@]}" --keys filter -o o
+refuses 2 '--set sensor.range_sigma_ratio=0.01' tune "${quick_tune[@]}" --keys sensor.range_sigma_ratio -o o
+refuses 2 'wheel angles' tune "${quick_tune[@]}" sim:square@sim.odometry=velocity -o o
+refuses 2 'rmse' tune "${quick_tune[@]}" --by luck -o o
+mkdir few
+printf 'waymark_log: 1\nname: few\n' >few/log.yaml
+printf 'stamp_s,v_mps,w_radps\n0,1,0\n1,1,0\n' >few/velocity.csv
+refuses 2 'no sightings' tune few -o o
+printf 'stamp_s,id,range_m,bearing_rad\n0,1,3,0.1\n0.5,1,2.5,0.1\n' >few/observations.csv
+refuses 2 'too few' tune few -o o
+refuses 2 'no ground truth' tune few --by rmse -o o
+"$waymark" tune "${quick_tune[@]}" -o t3 >out.txt 2>err.txt &
+sleep 0.5
+kill -INT $! 2>/dev/null
+wait $!
+grep -q 'the best values so far are in t3/tuned.yaml' err.txt || [ -s t3/report.html ] || fail "tune, stopped: $(cat err.txt)"
+
 # Every level of help shows an example.
-for command in '' run demo sim eval sweep check bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
+for command in '' run demo sim eval sweep tune check bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

@@ -106,30 +106,18 @@ void Schema::add(Key key) {
 }
 
 void Schema::real(std::string name, double& field, Limits limits, std::string help) {
-  add({std::move(name),
-       std::move(help),
-       describe_limits(limits),
-       [&field] { return fmt::format("{}", field); },
-       number_setter(field, limits),
-       {}});
+  add({std::move(name), std::move(help), describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), limits});
 }
 
 void Schema::integer(std::string name, int& field, Limits limits, std::string help) {
-  add({std::move(name),
-       std::move(help),
-       "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); },
-       number_setter(field, limits),
-       {}});
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
 }
 
 void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help) {
-  add({std::move(name),
-       std::move(help),
-       "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); },
-       number_setter(field, limits),
-       {}});
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
 }
 
 void Schema::boolean(std::string name, bool& field, std::string help) {
@@ -138,12 +126,8 @@ void Schema::boolean(std::string name, bool& field, std::string help) {
     field = text == "true";
     return true;
   };
-  add({std::move(name),
-       std::move(help),
-       "true or false",
-       [&field] { return std::string(field ? "true" : "false"); },
-       std::move(set),
-       {}});
+  add({std::move(name), std::move(help), "true or false",
+       [&field] { return std::string(field ? "true" : "false"); }, std::move(set)});
 }
 
 void Schema::text(std::string name, std::string& field, std::string help) {
@@ -151,7 +135,7 @@ void Schema::text(std::string name, std::string& field, std::string help) {
     field = text;
     return true;
   };
-  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set), {}});
+  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set)});
 }
 
 void Schema::add_choice(std::string name, std::vector<std::string> names, std::string help,
@@ -163,12 +147,8 @@ void Schema::add_choice(std::string name, std::vector<std::string> names, std::s
     set(static_cast<std::size_t>(found - shared->begin()));
     return true;
   };
-  add({std::move(name),
-       std::move(help),
-       join(*shared),
-       [shared, get = std::move(get)] { return (*shared)[get()]; },
-       std::move(set_by_name),
-       {}});
+  add({std::move(name), std::move(help), join(*shared),
+       [shared, get = std::move(get)] { return (*shared)[get()]; }, std::move(set_by_name)});
 }
 
 const Schema::Key* Schema::find(std::string_view name) const {
@@ -195,6 +175,11 @@ std::vector<std::string> Schema::close_keys(std::string_view name, std::size_t c
   std::ranges::stable_sort(names, {}, distance);
   names.resize(std::min(count, names.size()));
   return names;
+}
+
+std::optional<Limits> Schema::limits(std::string_view key) const {
+  const Key* found = find(key);
+  return found == nullptr ? std::nullopt : found->limits;
 }
 
 std::string Schema::value(std::string_view key) const { return find(key)->get(); }

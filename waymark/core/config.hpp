@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -67,6 +68,8 @@ class Schema {
   /// The text of the value in force; the key must exist.
   [[nodiscard]] std::string value(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
+  /// What a key that is a real number may be; nothing for any other.
+  [[nodiscard]] std::optional<Limits> limits(std::string_view key) const;
   /// The keys that a mistyped one may have meant, the likeliest first, at most `count` of them; may be none.
   [[nodiscard]] std::vector<std::string> close_keys(std::string_view name, std::size_t count) const;
 
@@ -77,6 +80,7 @@ class Schema {
     std::string allowed;  ///< "0.5 to 1", "true or false", "ekf or fastslam"
     std::function<std::string()> get;
     std::function<bool(std::string_view)> set;  ///< false: not an allowed value
+    std::optional<Limits> limits;               ///< of a real number
     std::string default_value;
     bool was_set = false;
   };

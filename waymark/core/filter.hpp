@@ -37,6 +37,10 @@ struct Innovation {
   int dof = 0;        ///< 0 where nothing was compared
   double nis = 0.0;   ///< nu^T S^-1 nu: chi-square with `dof` degrees of freedom if all is well
   double gate = 0.0;  ///< the NIS above which it is refused
+  /// Of this sighting before anything of its scan was used: -1/2 (NIS + log |2 pi S|), in m, rad and px.
+  /// Where a filter that is lost then widens what it expects, `nis` is of the wider expectation, but not
+  /// this.
+  double log_density = 0.0;
 };
 
 /// What correct() did. A view into the filter, valid until its next call.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -22,6 +23,13 @@ template <int N>
   if (llt.info() != Eigen::Success || !S.allFinite()) return std::nullopt;
   const double d2 = nu.dot(llt.solve(nu));
   return d2 >= 0.0 && d2 < 1e300 ? std::optional(d2) : std::nullopt;
+}
+
+/// log N(nu; 0, S) where d2 is the mahalanobis_squared() of nu. S is positive definite.
+template <int N>
+[[nodiscard]] double log_gaussian(double d2, const Eigen::Matrix<double, N, N>& S) {
+  const Eigen::Matrix<double, N, N> L = S.llt().matrixL();
+  return -0.5 * (d2 + N * kLogTwoPi) - L.diagonal().array().log().sum();
 }
 
 /// A mean with its covariance, N-dimensional.

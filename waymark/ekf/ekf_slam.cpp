@@ -48,6 +48,10 @@ Eigen::Matrix2d noise_of(const Observation& observation) {
   return R;
 }
 
+double log_density(const ekf::Sighting& sighting, double nis, const Eigen::Matrix2d& S) {
+  return sighting.rows == 2 ? log_gaussian<2>(nis, S) : log_gaussian<1>(nis, S.topLeftCorner<1, 1>());
+}
+
 /// z - h at one point, Jacobians at another.
 template <ObservationModel Model>
 ekf::Sighting sight_as(const typename Model::Value& z, const Linearization<Model::kDim>& expected,
@@ -224,6 +228,7 @@ void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>
   const Eigen::Matrix2d S = state_.innovation_covariance(*sighting);
   const auto nis = mahalanobis_squared<2>(sighting->nu, S);
   if (!nis) return;
+  if (innovation.dof == 0) innovation.log_density = log_density(*sighting, *nis, S);
   innovation.dof = sighting->rows;
   innovation.nis = *nis;
   innovation.gate = gate_.threshold(sighting->rows);

@@ -456,6 +456,7 @@ std::optional<Eigen::Matrix2d> PixelSlam::settle(std::size_t index, const Observ
   const Eigen::Matrix2d S = map_.state().innovation_covariance(sighting);
   const auto nis = mahalanobis_squared<2>(sighting.nu, S);
   if (!nis) return std::nullopt;
+  if (innovation.dof == 0) innovation.log_density = log_gaussian<2>(*nis, S);
   innovation.dof = 2;
   innovation.nis = *nis;
   innovation.gate = gate_;

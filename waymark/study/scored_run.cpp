@@ -34,15 +34,20 @@ void smooth_run(ScoredRun& run) {
 
 }  // namespace
 
+ScoredRun score_run(std::string input, Config config, LogInfo log, Recording recording) {
+  ScoredRun run{std::move(input), std::move(config), std::move(log), std::move(recording), {}, {}, {}, {}};
+  run.truth = truth_of(run.recording);
+  run.evaluation = score(run, run.recording.trajectory, run.recording.filter->snapshot().landmarks);
+  return run;
+}
+
 Result<ScoredRun> run_and_score(const std::string& input, const UserSettings& user, const TimeSpan& span,
                                 const std::function<bool(double)>& keep_going) {
   auto opened = open_input(input, user);
   if (!opened) return opened.error();
   auto recording = record(*opened->source, opened->config, span, keep_going);
   if (!recording) return recording.error();
-  ScoredRun run{input, opened->config, opened->source->info(), std::move(*recording), {}, {}, {}, {}};
-  run.truth = truth_of(run.recording);
-  run.evaluation = score(run, run.recording.trajectory, run.recording.filter->snapshot().landmarks);
+  ScoredRun run = score_run(input, opened->config, opened->source->info(), *std::move(recording));
   if (run.config.smooth.run) smooth_run(run);
   return run;
 }

@@ -23,6 +23,9 @@ struct ScoredRun {
   std::optional<eval::Evaluation> smoothed_evaluation;
 };
 
+/// A run that has been made, scored.
+[[nodiscard]] ScoredRun score_run(std::string input, Config config, LogInfo log, Recording recording);
+
 /// Opens an input, runs the filter over it and scores the result. A log that breaks off half-way gives what
 /// was computed up to there, with `recording.error` set. `keep_going` as in record().
 [[nodiscard]] Result<ScoredRun> run_and_score(const std::string& input, const UserSettings& user,
