@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "support/numeric_jacobian.hpp"
 #include "waymark/core/chi2.hpp"
 
-#include "numeric_jacobian.hpp"
 #include "photographed_board.hpp"
 
 namespace waymark::calibrate {

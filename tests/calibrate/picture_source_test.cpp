@@ -56,6 +56,7 @@ TEST_F(PictureSourceTest, WhatHoldsNoPicturesSaysWhatWasExpected) {
 TEST_F(PictureSourceTest, ImagesOfALogAreAStreamOfFiveASecond) {
   const fs::path log = folder_ / "log";
   fs::create_directories(log / "images");
+  std::ofstream(log / "log.yaml") << "waymark_log: 1\n";
   std::ofstream table(log / "images.csv");
   table << "stamp_s,file\n";
   for (int i = 0; i < 10; ++i) {

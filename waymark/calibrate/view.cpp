@@ -102,20 +102,21 @@ Result<std::vector<View>> collect_views(PictureSource& pictures, const Board& bo
 
 std::optional<GridSize> guess_chessboard(PictureSource& pictures) {
   constexpr int kLookedAt = 20;
+  constexpr GridSize kSmallest{3, 3};  // many things look like it
   std::map<std::pair<int, int>, int> votes;
   for (int i = 0; i < kLookedAt; ++i) {
     const auto picture = pictures.next();
     if (!picture || !*picture) break;
     const auto& pixels = (**picture).pixels;
     const auto grid = pixels ? guess_chessboard(*pixels) : std::nullopt;
-    if (grid) ++votes[{grid->columns, grid->rows}];
+    if (grid && *grid != kSmallest) ++votes[{grid->columns, grid->rows}];
   }
   if (votes.empty()) return std::nullopt;
   // Of two that are as frequent, the larger: parts of a board are found more easily than more than it.
   const auto best = std::ranges::max_element(votes, {}, [](const auto& vote) {
     return std::pair(vote.second, vote.first.first * vote.first.second);
   });
-  return GridSize{best->first.first, best->first.second};
+  return best->second > 1 ? std::optional(GridSize{best->first.first, best->first.second}) : std::nullopt;
 }
 
 }  // namespace waymark::calibrate

@@ -44,7 +44,7 @@ struct View {
                                                       BoardFinder& finder,
                                                       const std::function<bool(double)>& keep_going = {});
 
-/// The inner corners of the chessboard that most of the first pictures show.
+/// The inner corners of the chessboard that most of the first pictures show, two of them at least.
 [[nodiscard]] std::optional<GridSize> guess_chessboard(PictureSource& pictures);
 
 }  // namespace waymark::calibrate
