@@ -37,16 +37,18 @@ std::optional<GridSize> guess(const Request& request, const InputOptions& option
 
 std::string name_of(GridSize grid) { return fmt::format("{}x{}", grid.columns, grid.rows); }
 
+Error no_chessboard() {
+  return {
+      "calibrate camera: no chessboard was found, so say what board it is: --corners COLUMNSxROWS (the inner "
+      "corners, where four squares meet; for example 9x6), or --board charuco"};
+}
+
 /// The board that was asked for, or the chessboard that the pictures show.
 Result<Board> settle_board(const Request& request, const InputOptions& options) {
   auto board = calibrate::make_board(request.board);
   if (!board || board->size() > 0) return board;
   const auto corners = guess(request, options);
-  if (!corners)
-    return Error{
-        "calibrate camera: no chessboard was found, so say what board it is: --corners COLUMNSxROWS (the "
-        "inner "
-        "corners, where four squares meet; for example 9x6), or --board charuco"};
+  if (!corners) return no_chessboard();
   if (request.verbosity.talks())
     fmt::print("board: the pictures show {} inner corners; --corners says otherwise\n", name_of(*corners));
   board->corners = *corners;
@@ -62,6 +64,7 @@ Error no_board(const Request& request, const InputOptions& options, const Board&
     return {fmt::format("none of {} pictures can be read; the first: {}", views.size(), unreadable->why)};
   std::string message = fmt::format("no {} in any of {} pictures", describe(board), views.size());
   if (board.kind == calibrate::BoardKind::kCharuco) return {message + "; check --squares and --dictionary"};
+  if (request.board.corners.empty()) return no_chessboard();
   const auto corners = guess(request, options);
   if (corners && *corners != board.corners)
     return {

@@ -60,8 +60,8 @@ TEST_F(PictureSourceTest, ImagesOfALogAreAStreamOfFiveASecond) {
   std::ofstream table(log / "images.csv");
   table << "stamp_s,file\n";
   for (int i = 0; i < 10; ++i) {
-    const std::string name = "images/" + std::to_string(i) + ".png";
-    ASSERT_TRUE(write_png(log / name, GreyImage(20, 10, 50)));
+    const std::string name = std::to_string(i) + ".png";
+    ASSERT_TRUE(write_png(log / "images" / name, GreyImage(20, 10, 50)));
     table << 0.1 * i << "," << name << "\n";
   }
   table.close();

@@ -38,7 +38,7 @@ refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles -5
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 99999999999999999999
-refuses 2 'range-bearing, range, bearing or pixel' run sim:square -o o --filter fastslam --observe sonar
+refuses 2 'range-bearing, range, bearing, pixel or markers' run sim:square -o o --filter fastslam --observe sonar
 refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
@@ -339,6 +339,8 @@ if "$waymark" calibrate camera room/images 2>&1 | grep -q 'lacks'; then
 else
   refuses 2 'is neither a picture' calibrate camera x.mat
   refuses 2 'no chessboard with 9x6 inner corners' calibrate camera 'room/images/00000*.png' --corners 9x6
+  mkdir blank && for i in 1 2 3; do pgm 320 240 '\200' >blank/$i.pgm; done
+  refuses 2 'no chessboard was found' calibrate camera blank
   refuses 2 'no chessboard was found' calibrate camera 'room/images/00000*.png'
   mkdir broken && for i in 1 2 3; do head -c 100 room/images/000020.png >broken/$i.png; done
   refuses 2 'none of 3 pictures can be read' calibrate camera broken --corners 9x6
@@ -348,7 +350,7 @@ else
     grep -q '13 of 13 views' out.txt || fail "calibrate does not use all photos: $(cat out.txt)"
     ! grep -q WEAK out.txt || fail "a good set is called weak: $(cat out.txt)"
     [ -s left/report.html ] || fail 'calibrate wrote no page'
-    rm spoilt/camera.yaml && cp left/camera.yaml spoilt/
+    spoil && cp left/camera.yaml spoilt/
     refuses 2 'camera.yaml: image_width and image_height are 640 and 480' run spoilt -o o
     refuses 2 'they seem to show 9x6: --corners 9x6' calibrate camera "$photos/left*.jpg" --corners 9x7
     mkdir mixed && cp "$photos"/left0[1-9].jpg mixed && chmod u+w mixed/* && cp room/images/000020.png mixed

@@ -7,7 +7,7 @@ import { reproduce } from "../report/tables.js";
 import { coverage, errorPicture, magnification } from "./pictures.js";
 
 const px = (value, digits = 2) => (format.isNumber(value) ? `${format.fixed(value, digits)} px` : "–");
-const range = ([low, high]) => `${format.fixed(low, 0)} to ${format.fixed(high, 0)} px`;
+const range = ([low, high]) => `${format.fixed(low, 1)} to ${format.fixed(high, 1)} px`;
 
 function verdict(data) {
   if (!data.weak) {
