@@ -92,10 +92,11 @@ void print_text(const CameraCalibration& result, const std::string& output) {
              describe(result.board), camera.width_px, camera.height_px);
   int alike = 0, without_board = 0;
   for (const View& view : result.views) {
-    const bool is_frame = !view.is_shown() && view.fate != Fate::kUnreadable;
-    alike += view.fate == Fate::kAlike ? 1 : 0;
-    without_board += view.fate == Fate::kNoBoard && is_frame ? 1 : 0;
-    if (view.fate != Fate::kUsed && view.fate != Fate::kAlike && !(view.fate == Fate::kNoBoard && is_frame))
+    if (view.fate == Fate::kAlike)
+      ++alike;
+    else if (view.fate == Fate::kNoBoard && !view.is_shown())
+      ++without_board;
+    else if (view.fate != Fate::kUsed)
       fmt::print("  dropped {}: {}\n", view.name, view.why);
   }
   if (alike + without_board > 0)
