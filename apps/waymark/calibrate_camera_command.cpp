@@ -85,11 +85,7 @@ Result<std::vector<View>> look(const Request& request, const InputOptions& optio
   });
 }
 
-void print_text(const CameraCalibration& result, const std::string& output) {
-  const auto& camera = result.fit.camera;
-  const calibrate::Intrinsics sigma = result.fit.sigma();
-  fmt::print("{} of {} views of a {}, {} x {} pixels\n", result.used(), result.views.size(),
-             describe(result.board), camera.width_px, camera.height_px);
+void print_dropped(const CameraCalibration& result) {
   int alike = 0, without_board = 0;
   for (const View& view : result.views) {
     if (view.fate == Fate::kAlike)
@@ -101,8 +97,18 @@ void print_text(const CameraCalibration& result, const std::string& output) {
   }
   if (alike + without_board > 0)
     fmt::print("  dropped {} frames like others and {} without the board\n", alike, without_board);
-  fmt::print("  RMS {:.3f} px; {:.3f} px on views left out ({} folds)\n", result.fit.rms_px,
-             result.held_out.rms_px, result.held_out.folds);
+}
+
+void print_text(const CameraCalibration& result, const std::string& output) {
+  const auto& camera = result.fit.camera;
+  const calibrate::Intrinsics sigma = result.fit.sigma();
+  fmt::print("{} of {} views of a {}, {} x {} pixels\n", result.used(), result.views.size(),
+             describe(result.board), camera.width_px, camera.height_px);
+  print_dropped(result);
+  fmt::print("  RMS {:.3f} px", result.fit.rms_px);
+  if (result.held_out.folds > 0)
+    fmt::print("; {:.3f} px on views left out ({} folds)", result.held_out.rms_px, result.held_out.folds);
+  fmt::print("\n");
   fmt::print("  fu {:.2f} +- {:.2f}, fv {:.2f} +- {:.2f}, cu {:.2f} +- {:.2f}, cv {:.2f} +- {:.2f} px\n",
              camera.fu_px, sigma[0], camera.fv_px, sigma[1], camera.cu_px, sigma[2], camera.cv_px, sigma[3]);
   if (result.is_weak()) fmt::print("WEAK:\n");

@@ -1,6 +1,7 @@
 #include "waymark/calibrate/board.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -44,7 +45,8 @@ Result<Board> make_charuco(const BoardRequest& request) {
         fmt::format("--squares {}: a ChArUco board needs its number of squares as COLUMNSxROWS from "
                     "3x3 to {}x{}, for example 5x7",
                     request.squares, kSideMax, kSideMax)};
-  if (!(request.marker_m > 0.0 && request.square_m > request.marker_m))
+  const bool markers_fit = request.marker_m > 0.0 && request.square_m > request.marker_m;
+  if (!markers_fit)
     return Error{
         "--square_m and --marker_m: a ChArUco board needs the sides of its squares and of its "
         "markers, which are smaller, in metres; for example --square_m 0.04 --marker_m 0.02"};
@@ -73,11 +75,13 @@ std::optional<GridSize> parse_grid_size(std::string_view text) {
 }
 
 Eigen::Vector2d Board::corner_m(int index) const {
-  return {square_m * (index % corners.columns), square_m * (index / corners.columns)};
+  const int column = index % corners.columns, row = index / corners.columns;
+  return {square_m * column, square_m * row};
 }
 
 Result<Board> make_board(const BoardRequest& request) {
-  if (request.square_m < 0.0) return Error{"--square_m: the side of a square must be above 0 m"};
+  if (!std::isfinite(request.square_m) || request.square_m < 0.0)
+    return Error{"--square_m: the side of a square must be above 0 m"};
   if (request.kind == "chessboard") return make_chessboard(request);
   if (request.kind == "charuco") return make_charuco(request);
   return Error{fmt::format("--board {}: expected chessboard or charuco", request.kind)};

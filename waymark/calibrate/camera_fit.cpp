@@ -122,12 +122,31 @@ double first_focal_px(const std::vector<Matrix3d>& homographies, const Vector2d&
   return f > 0.2 * width_px && f < 20.0 * width_px ? f : width_px;
 }
 
+/// Without distortion, the principal point in the middle.
+CameraOptions first_camera(const std::vector<Matrix3d>& homographies, ImageSize size) {
+  CameraOptions camera{.width_px = size.width_px, .height_px = size.height_px};
+  camera.cu_px = 0.5 * (size.width_px - 1);
+  camera.cv_px = 0.5 * (size.height_px - 1);
+  camera.fu_px = camera.fv_px = first_focal_px(homographies, {camera.cu_px, camera.cv_px}, size.width_px);
+  return camera;
+}
+
+Result<std::vector<Matrix3d>> homographies_of(const Board& board, std::span<const BoardCorners> views) {
+  std::vector<Matrix3d> homographies;
+  for (const BoardCorners& view : views) {
+    const auto H = plane_homography(board, view);
+    if (!H) return Error{"a view has its corners on a line"};
+    homographies.push_back(*H);
+  }
+  return homographies;
+}
+
 /// Gauss-Newton with Marquardt's damping over camera and poses. `free` has one for each intrinsic that is
 /// estimated.
 class Adjustment {
  public:
-  Adjustment(std::vector<Sight> sights, const CameraOptions& camera, const Intrinsics& free)
-      : sights_(std::move(sights)), camera_(camera), free_(free) {}
+  Adjustment(std::vector<Sight> sights, const CameraOptions& camera, Intrinsics free)
+      : sights_(std::move(sights)), camera_(camera), free_(std::move(free)) {}
 
   /// False where a board is not in front of the camera.
   bool start(const std::vector<Eigen::Isometry3d>& poses) {
@@ -287,23 +306,17 @@ Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> v
   if (views.size() < kLeastViews)
     return Error{fmt::format("{} views of the board are too few: {} are needed at least, and 15 are good",
                              views.size(), kLeastViews)};
-  CameraOptions camera{.width_px = size.width_px, .height_px = size.height_px};
-  const Vector2d centre(0.5 * (size.width_px - 1), 0.5 * (size.height_px - 1));
+  auto homographies = homographies_of(board, views);
+  if (!homographies) return homographies.error();
+  const CameraOptions camera = first_camera(*homographies, size);
   std::vector<Sight> sights;
-  std::vector<Matrix3d> homographies;
-  std::size_t corners = 0;
-  for (const BoardCorners& view : views) {
-    const auto H = plane_homography(board, view);
-    if (!H) return Error{"a view has its corners on a line"};
-    sights.push_back({board, view});
-    homographies.push_back(*H);
-    corners += view.size();
-  }
-  camera.fu_px = camera.fv_px = first_focal_px(homographies, centre, size.width_px);
-  camera.cu_px = centre.x();
-  camera.cv_px = centre.y();
   std::vector<Eigen::Isometry3d> poses;
-  for (const Matrix3d& H : homographies) poses.push_back(pose_of(pinhole(camera).inverse() * H));
+  std::size_t corners = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    sights.push_back({board, views[i]});
+    poses.push_back(pose_of(pinhole(camera).inverse() * (*homographies)[i]));
+    corners += views[i].size();
+  }
 
   const Intrinsics free = free_terms(lens);
   Adjustment adjustment(std::move(sights), camera, free);

@@ -8,13 +8,14 @@ namespace {
 
 /// Which cells have corners in them, row by row.
 std::vector<bool> filled_cells(const std::vector<View>& views, ImageSize size, int columns, int rows) {
-  std::vector<bool> filled(static_cast<std::size_t>(columns * rows), false);
+  std::vector<bool> filled(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
   for (const View& view : views) {
     if (view.fate != Fate::kUsed) continue;
     for (const auto& [index, pixel] : view.corners) {
       const int column = std::clamp(static_cast<int>(pixel.x() * columns / size.width_px), 0, columns - 1);
       const int row = std::clamp(static_cast<int>(pixel.y() * rows / size.height_px), 0, rows - 1);
-      filled[static_cast<std::size_t>(row * columns + column)] = true;
+      const int cell = row * columns + column;
+      filled[static_cast<std::size_t>(cell)] = true;
     }
   }
   return filled;

@@ -8,12 +8,12 @@
 
 namespace waymark::calibrate {
 
-std::vector<ProjectionSigma> projection_sigmas(const CameraOptions& options,
+std::vector<ProjectionSigma> projection_sigmas(const CameraOptions& camera,
                                                const IntrinsicsCovariance& covariance, int columns,
                                                int rows) {
   using PixelToIntrinsics = Eigen::Matrix<double, 2, kIntrinsics>;
   using PixelToTurn = Eigen::Matrix<double, 2, 3>;
-  const Camera camera(options);
+  const Camera lens(camera);
   std::vector<ProjectionSigma> places;
   std::vector<PixelToIntrinsics> G;
   std::vector<PixelToTurn> W;
@@ -21,16 +21,16 @@ std::vector<ProjectionSigma> projection_sigmas(const CameraOptions& options,
   Eigen::Matrix<double, 3, kIntrinsics> WtG = Eigen::Matrix<double, 3, kIntrinsics>::Zero();
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const Eigen::Vector2d pixel((column + 0.5) / columns * options.width_px - 0.5,
-                                  (row + 0.5) / rows * options.height_px - 0.5);
-      const auto ray = camera.ray(pixel);
-      const auto image = ray ? camera.project(ray->xy.homogeneous()) : std::nullopt;
+      const Eigen::Vector2d pixel((column + 0.5) / columns * camera.width_px - 0.5,
+                                  (row + 0.5) / rows * camera.height_px - 0.5);
+      const auto ray = lens.ray(pixel);
+      const auto image = ray ? lens.project(ray->xy.homogeneous()) : std::nullopt;
       if (!image) continue;
       const Eigen::Vector3d p = ray->xy.homogeneous();
       const Eigen::Matrix3d turn{{0.0, p.z(), -p.y()}, {-p.z(), 0.0, p.x()}, {p.y(), -p.x(), 0.0}};
-      places.push_back({pixel});
-      G.push_back(intrinsics_jacobian(camera, p));
-      W.push_back(image->dpixel_dpoint * turn);
+      places.push_back({.pixel = pixel});
+      G.emplace_back(intrinsics_jacobian(lens, p));
+      W.emplace_back(image->dpixel_dpoint * turn);
       WtW += W.back().transpose() * W.back();
       WtG += W.back().transpose() * G.back();
     }

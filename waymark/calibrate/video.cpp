@@ -22,8 +22,8 @@ GreyImage grey(const cv::Mat& frame) {
 
 class Video final : public PictureSource {
  public:
-  explicit Video(cv::VideoCapture capture)
-      : capture_(std::move(capture)), frames_(capture_.get(cv::CAP_PROP_FRAME_COUNT)) {
+  explicit Video(const cv::VideoCapture& capture)
+      : capture_(capture), frames_(capture_.get(cv::CAP_PROP_FRAME_COUNT)) {
     const double rate_hz = capture_.get(cv::CAP_PROP_FPS);
     if (std::isfinite(rate_hz)) every_ = std::max(1, static_cast<int>(rate_hz / kFramesPerSecond));
   }
@@ -60,7 +60,7 @@ Result<std::unique_ptr<PictureSource>> open_video(const std::filesystem::path& p
   cv::VideoCapture capture;
   try {
     if (capture.open(path.string(), cv::CAP_FFMPEG))
-      return std::unique_ptr<PictureSource>(std::make_unique<Video>(std::move(capture)));
+      return std::unique_ptr<PictureSource>(std::make_unique<Video>(capture));
   } catch (const cv::Exception&) {
     // The same as a file that no decoder knows.
   }
