@@ -1,5 +1,6 @@
-# OpenCV finds ArUco markers, and is something that tests compare with; libapriltag finds AprilTags. Everything else
-# builds and runs without them. OpenCV's modules are named one by one, because its package names all of them.
+# OpenCV finds ArUco markers and calibration boards, reads videos, and is something that tests compare with; libapriltag
+# finds AprilTags. Everything else builds and runs without them. OpenCV's modules are named one by one, because its
+# package names all of them.
 
 # waymark_find_modules(<name> <header> <libraries...>): WAYMARK_<name>_LIBRARIES are paths and WAYMARK_<name>_INCLUDE is
 # the folder of the header where all are there; otherwise WAYMARK_<name>_FOUND is false. Paths, unlike targets, need
@@ -24,10 +25,18 @@ endfunction()
 
 set(WAYMARK_ARUCO_FOUND FALSE)
 set(WAYMARK_APRILTAG_FOUND FALSE)
+set(WAYMARK_BOARDS_FOUND FALSE)
+set(WAYMARK_BOARDS_LIBRARIES "")
 if(WAYMARK_WITH_OPENCV)
   waymark_find_modules(ARUCO opencv2/aruco.hpp opencv_aruco opencv_calib3d opencv_imgproc opencv_core)
   if(NOT WAYMARK_ARUCO_FOUND)
     message(STATUS "OpenCV's aruco, calib3d, imgproc or core is missing: built without ArUco markers")
+  endif()
+  waymark_find_modules(BOARDS opencv2/aruco/charuco.hpp opencv_aruco opencv_calib3d opencv_imgproc opencv_videoio
+                       opencv_core)
+  if(NOT WAYMARK_BOARDS_FOUND)
+    set(WAYMARK_BOARDS_LIBRARIES "")
+    message(STATUS "OpenCV's aruco, calib3d, imgproc, videoio or core is missing: built without camera calibration")
   endif()
 endif()
 if(WAYMARK_WITH_APRILTAG)

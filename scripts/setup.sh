@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
   libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev libnlopt-dev
-  libopencv-contrib-dev libopencv-calib3d-dev libapriltag-dev
+  libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev libapriltag-dev
 )
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git

@@ -155,9 +155,9 @@ std::string advice(const Request& request, const Config& config, const LogInfo& 
   if (log.only_pixels && !config.camera_known)
     return log.topics.empty()
                ? "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like"
-               : "nothing can be run: nobody knows what the camera is like; `waymark calibrate camera` makes "
-                 "a "
-                 "file that says it, for --set input.camera_file=FILE";
+               : "nothing can be run: nobody knows what the camera is like; `waymark calibrate camera "
+                 "PHOTOS -o camera` makes a file that says it, for --set "
+                 "input.camera_file=camera/camera.yaml";
   std::string command = "waymark run " + request.input + " -o out";
   if (log.only_pixels) command += " --observe pixel";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;

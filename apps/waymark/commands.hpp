@@ -22,6 +22,7 @@ void add_demo(CLI::App& app, Work& work);
 void add_sim(CLI::App& app, Work& work);
 void add_eval(CLI::App& app, Work& work);
 void add_check(CLI::App& app, Work& work);
+void add_calibrate(CLI::App& app, Work& work);
 void add_bench(CLI::App& app, Work& work);
 void add_sweep(CLI::App& app, Work& work);
 void add_tune(CLI::App& app, Work& work);

@@ -71,6 +71,7 @@ int run_program(int argc, char** argv) {
   add_sweep(app, work);
   add_tune(app, work);
   add_check(app, work);
+  add_calibrate(app, work);
   add_bench(app, work);
   add_map(app, work);
   add_config(app, work);

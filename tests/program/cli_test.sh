@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The program as a user meets it. Usage: cli_test.sh WAYMARK
+# The program as a user meets it. Usage: cli_test.sh WAYMARK DATA, the latter being where recordings are, if there are any.
 set -uo pipefail
 waymark=$1
+data=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -354,8 +355,51 @@ kill -INT $! 2>/dev/null
 wait $!
 grep -q 'the best values so far are in t3/tuned.yaml' err.txt || [ -s t3/report.html ] || fail "tune, stopped: $(cat err.txt)"
 
+# Calibrating a camera: what is no set of pictures, and what the pictures do not show.
+refuses 2 'subcommand' calibrate
+refuses 2 'input' calibrate camera
+refuses 2 'empty: no pictures' calibrate camera empty
+refuses 2 'nowhere: there is no such file' calibrate camera nowhere
+refuses 2 '--corners 9' calibrate camera room/images --corners 9
+refuses 2 '--squares' calibrate camera room/images --board charuco
+refuses 2 '--board circles' calibrate camera room/images --board circles
+refuses 2 'unknown key' calibrate camera room/images --set input.image=x
+if "$waymark" calibrate camera room/images 2>&1 | grep -q 'lacks'; then
+  echo 'SKIPPED: this build has no OpenCV'
+else
+  refuses 2 'is neither a picture' calibrate camera x.mat
+  refuses 2 'no chessboard with 9x6 inner corners' calibrate camera 'room/images/00000*.png' --corners 9x6
+  mkdir blank && for i in 1 2 3; do pgm 320 240 '\200' >blank/$i.pgm; done
+  refuses 2 'no chessboard was found' calibrate camera blank
+  refuses 2 'no chessboard was found' calibrate camera 'room/images/00000*.png'
+  mkdir broken && for i in 1 2 3; do head -c 100 room/images/000020.png >broken/$i.png; done
+  refuses 2 'none of 3 pictures can be read' calibrate camera broken --corners 9x6
+  photos=${WAYMARK_DATA_DIR:-$data}/calib-chessboard
+  if [ -d "$photos" ]; then
+    does calibrate camera "$photos/left*.jpg" --corners 9x6 --square_m 0.025 -o left
+    grep -q '13 of 13 views' out.txt || fail "calibrate does not use all photos: $(cat out.txt)"
+    ! grep -q WEAK out.txt || fail "a good set is called weak: $(cat out.txt)"
+    [ -s left/report.html ] || fail 'calibrate wrote no page'
+    spoil && cp left/camera.yaml spoilt/
+    refuses 2 'camera.yaml: image_width and image_height are 640 and 480' run spoilt -o o
+    refuses 2 'they seem to show 9x6: --corners 9x6' calibrate camera "$photos/left*.jpg" --corners 9x7
+    mkdir mixed && cp "$photos"/left0[1-9].jpg mixed && chmod u+w mixed/* && cp room/images/000020.png mixed
+    head -c 9000 "$photos/left11.jpg" >mixed/left11.jpg
+    does calibrate camera mixed -o mixed-out --json
+    node -e '
+      const { weak, views, weaknesses } = JSON.parse(require("fs").readFileSync(0));
+      const of = (name) => views.find((v) => v.name === name).verdict;
+      if (!weak || !weaknesses[0].what.includes("only 9 views")) throw "not weak";
+      if (of("000020.png") !== "no board" || of("left11.jpg") !== "unreadable") throw "verdicts";
+      ' <out.txt || fail "calibrate --json is not what it should be: $(cat out.txt)"
+    refuses 2 '2 of 2 pictures show' calibrate camera "$photos/left01.jpg" "$photos/left02.jpg" --corners 9x6
+  else
+    echo "SKIPPED: no recording $photos"
+  fi
+fi
+
 # Every level of help shows an example.
-for command in '' run demo sim eval sweep tune check bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
+for command in '' run demo sim eval sweep tune check calibrate 'calibrate camera' bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

@@ -6,7 +6,7 @@ namespace waymark {
 namespace {
 
 TEST(Pages, HaveOnePlaceForTheirData) {
-  for (const auto page : {report_page(), sweep_page(), consistency_page()}) {
+  for (const auto page : {report_page(), sweep_page(), consistency_page(), camera_page()}) {
     const auto at = page.find(kPageDataMark);
     ASSERT_NE(at, std::string_view::npos);
     EXPECT_EQ(page.find(kPageDataMark, at + 1), std::string_view::npos);

@@ -5,11 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "waymark/io/image_file.hpp"
-#include "waymark/report/base64.hpp"
 #include "waymark/report/decimate.hpp"
 #include "waymark/report/nis_histogram.hpp"
 #include "waymark/report/pages.hpp"
+#include "waymark/report/picture_text.hpp"
 #include "waymark/report/rounded.hpp"
 
 namespace waymark {
@@ -132,15 +131,6 @@ Json to_json(const ReportedBlock& block) {
             {"per_frame_us", rounded(block.per_frame_us)}};
   if (block.article_per_frame_us) json["article_per_frame_us"] = rounded(*block.article_per_frame_us);
   return json;
-}
-
-/// A picture as a PNG image for a data URL. 32 shades are enough to look at, and half as many bytes.
-std::string picture_text(GreyImage picture) {
-  std::uint8_t* pixels = picture.data();
-  for (int i = 0; i < picture.width_px() * picture.height_px(); ++i)
-    pixels[i] = static_cast<std::uint8_t>((pixels[i] & 0xF8U) | 4U);
-  const auto png = encode_png(picture);
-  return png ? base64(*png) : std::string();
 }
 
 const char* name_of(vision::Look::Result result, bool refused) {

@@ -110,7 +110,7 @@ Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (config.camera_known || !looks_into_pictures(config.observe) || !shows_pixels(event.content)) return {};
   return Error{
       "camera.fu_px: nobody says what the camera is like: put its camera_info file, as `waymark calibrate "
-      "camera` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
+      "camera PHOTOS` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
       "camera.fu_px, camera.fv_px, camera.cu_px and camera.cv_px; for a bag name the file: "
       "input.camera_file"};
 }

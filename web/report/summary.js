@@ -24,7 +24,7 @@ export function runSummary(data, run) {
   return h("p", { class: "run-summary" }, parts.flatMap((part, i) => (i ? [h("i", {}, "·"), part] : [part])));
 }
 
-function tile(label, [value, unit], note, { state, title } = {}) {
+export function tile(label, [value, unit], note, { state, title } = {}) {
   return h("div", { class: `tile ${state ?? ""}`, title },
     h("dt", {}, label),
     h("dd", { class: "value" }, value, unit ? h("small", {}, unit) : null),

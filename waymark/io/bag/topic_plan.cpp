@@ -213,8 +213,9 @@ class Planner {
       take_camera((*places)[0], images);
     } else if (!images.empty()) {
       plan_.notes.push_back(fmt::format(
-          "{}: {} describes it: `waymark calibrate camera` makes a file that does, for "
-          "input.camera_file",
+          "{}: {} describes it: `waymark calibrate camera PHOTOS -o camera` makes a file that does, for "
+          "--set "
+          "input.camera_file=camera/camera.yaml",
           images,
           places->empty() ? fmt::format("no {}", kCameraInfo)
                           : "several cameras are described, and input.camera_info_topic does not say which"));
@@ -232,8 +233,9 @@ class Planner {
       uses_[place] = "the camera";
     } else {
       plan_.notes.push_back(
-          fmt::format("{} does not say what the camera is like: {}; `waymark calibrate camera` makes "
-                      "a file that says it, for input.camera_file",
+          fmt::format("{} does not say what the camera is like: {}; `waymark calibrate camera "
+                      "PHOTOS -o camera` makes a file that says it, for --set "
+                      "input.camera_file=camera/camera.yaml",
                       topics()[place].name, camera.error().message));
     }
   }

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "commands.hpp"
+
+namespace waymark::app {
+
+/// Each adds its subcommand to `calibrate`.
+void add_calibrate_camera(CLI::App& calibrate, Work& work);
+
+}  // namespace waymark::app

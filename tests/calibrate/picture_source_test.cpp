@@ -1,0 +1,77 @@
+#include "waymark/calibrate/picture_source.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "waymark/io/image_file.hpp"
+
+namespace waymark::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureSourceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / "waymark_picture_source_test";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "none");
+    for (const char* name : {"b1.png", "a2.png", "a1.PNG"})
+      ASSERT_TRUE(write_png(folder_ / name, GreyImage(20, 10, 50)));
+    std::ofstream(folder_ / "c.jpg") << "\xFF\xD8 cut off";
+    std::ofstream(folder_ / "notes.txt") << "not a picture";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::vector<std::string> names(const std::vector<std::string>& inputs) {
+    std::vector<std::string> all;
+    const auto source = open_pictures(inputs);
+    if (!source) return {source.error().message};
+    while (const auto picture = *(*source)->next())
+      all.push_back(picture->name + (picture->pixels ? "" : " unreadable"));
+    return all;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(PictureSourceTest, FoldersPatternsAndFiles) {
+  const std::string folder = folder_.string();
+  EXPECT_THAT(names({folder}), testing::ElementsAre("a1.PNG", "a2.png", "b1.png", "c.jpg unreadable"));
+  EXPECT_THAT(names({folder + "/a*"}), testing::ElementsAre("a1.PNG", "a2.png"));
+  EXPECT_THAT(names({folder + "/b1.png", folder + "/a2.png"}), testing::ElementsAre("b1.png", "a2.png"));
+  EXPECT_FALSE((*open_pictures({folder}))->is_stream());
+}
+
+TEST_F(PictureSourceTest, WhatHoldsNoPicturesSaysWhatWasExpected) {
+  const std::string folder = folder_.string();
+  EXPECT_THAT(names({folder + "/none"}), testing::ElementsAre(testing::HasSubstr("none: no pictures")));
+  EXPECT_THAT(names({folder + "/x*.png"}), testing::ElementsAre(testing::HasSubstr("there is no such file")));
+  EXPECT_THAT(names({folder + "/b1.png", folder + "/notes.txt"}),
+              testing::ElementsAre(testing::HasSubstr("notes.txt is no picture")));
+  EXPECT_FALSE(open_pictures({folder + "/notes.txt"}));
+}
+
+TEST_F(PictureSourceTest, ImagesOfALogAreAStreamOfFiveASecond) {
+  const fs::path log = folder_ / "log";
+  fs::create_directories(log / "images");
+  std::ofstream(log / "log.yaml") << "waymark_log: 1\n";
+  std::ofstream table(log / "images.csv");
+  table << "stamp_s,file\n";
+  for (int i = 0; i < 10; ++i) {
+    const std::string name = std::to_string(i) + ".png";
+    ASSERT_TRUE(write_png(log / "images" / name, GreyImage(20, 10, 50)));
+    table << 0.1 * i << "," << name << "\n";
+  }
+  table.close();
+  const auto source = open_pictures({log.string()});
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_TRUE((*source)->is_stream());
+  int count = 0;
+  while (const auto picture = *(*source)->next()) count += picture->pixels ? 1 : 0;
+  EXPECT_EQ(count, 5);
+}
+
+}  // namespace
+}  // namespace waymark::calibrate

@@ -1,0 +1,36 @@
+#include "waymark/calibrate/video.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <opencv2/videoio.hpp>
+
+namespace waymark::calibrate {
+namespace {
+
+TEST(Video, GivesFiveFramesASecondInGrey) {
+  const auto path = std::filesystem::temp_directory_path() / "waymark_video_test.avi";
+  cv::VideoWriter writer(path.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+                         25.0, {160, 120});
+  ASSERT_TRUE(writer.isOpened());
+  for (int i = 0; i < 50; ++i) writer.write(cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(4 * i)));
+  writer.release();
+
+  const auto video = open_video(path);
+  ASSERT_TRUE(video) << video.error().message;
+  EXPECT_TRUE((*video)->is_stream());
+  int frames = 0;
+  while (const auto picture = *(*video)->next()) {
+    ASSERT_TRUE(picture->pixels);
+    EXPECT_EQ(picture->name, "frame " + std::to_string(5 * frames));
+    EXPECT_EQ(picture->pixels->width_px(), 160);
+    EXPECT_NEAR((*picture->pixels)(80, 60), 20 * frames, 6);
+    ++frames;
+  }
+  EXPECT_EQ(frames, 10);
+  EXPECT_DOUBLE_EQ((*video)->progress(), 1.0);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace waymark::calibrate

@@ -1,0 +1,63 @@
+#include "waymark/calibrate/weaknesses.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "photographed_board.hpp"
+
+namespace waymark::calibrate {
+namespace {
+
+using test::chessboard;
+using test::named;
+using test::photograph;
+using test::true_camera;
+
+std::string weaknesses_of(std::vector<View> views) {
+  const auto result = calibrate_camera(chessboard(), std::move(views));
+  if (!result) return "error: " + result.error().message;
+  std::string text;
+  for (const auto& weakness : result->weaknesses) text += weakness.what + "\n";
+  return text;
+}
+
+bool names(const std::string& text, const char* what) { return text.find(what) != std::string::npos; }
+
+TEST(Weaknesses, FewViews) {
+  const auto text = weaknesses_of(named(photograph(chessboard(), true_camera(), 5, 0.2, 1)));
+  EXPECT_TRUE(names(text, "only 5 views")) << text;
+}
+
+TEST(Weaknesses, BoardsParallelToThePicture) {
+  const auto text = weaknesses_of(named(photograph(chessboard(), true_camera(), 15, 0.2, 2,
+                                                   {.tilt_deg = 3.0, .nearest_m = 0.45, .farthest_m = 0.5})));
+  EXPECT_TRUE(names(text, "parallel to the picture")) << text;
+  EXPECT_TRUE(names(text, "focal length is known to")) << text;
+}
+
+TEST(Weaknesses, OneCornerOfThePicture) {
+  std::vector<BoardCorners> views;
+  for (const auto& view : photograph(chessboard(), true_camera(), 400, 0.2, 3, {.farthest_m = 0.9}))
+    if (std::ranges::all_of(view, [](const auto& c) { return c.pixel.x() < 360.0 && c.pixel.y() < 300.0; }))
+      views.push_back(view);
+  ASSERT_GE(views.size(), 10U);
+  const auto text = weaknesses_of(named(views));
+  EXPECT_TRUE(names(text, "of the picture")) << text;
+}
+
+TEST(Weaknesses, LargeErrors) {
+  const auto text = weaknesses_of(named(photograph(chessboard(), true_camera(), 15, 1.5, 4)));
+  EXPECT_TRUE(names(text, "reprojection errors")) << text;
+}
+
+TEST(Weaknesses, EachSaysWhatToPhotograph) {
+  const auto result =
+      calibrate_camera(chessboard(), named(photograph(chessboard(), true_camera(), 4, 1.5, 5)));
+  ASSERT_TRUE(result);
+  EXPECT_GE(result->weaknesses.size(), 2U);
+  for (const auto& weakness : result->weaknesses) EXPECT_FALSE(weakness.advice.empty());
+}
+
+}  // namespace
+}  // namespace waymark::calibrate
