@@ -26,6 +26,11 @@ void add_bench(CLI::App& app, Work& work);
 void add_sweep(CLI::App& app, Work& work);
 void add_map(CLI::App& app, Work& work);
 void add_config(CLI::App& app, Work& work);
+void add_calibrate(CLI::App& app, Work& work);
+
+/// Subcommands of `calibrate`.
+void add_calibrate_odometry(CLI::App& calibrate, Work& work);
+void add_calibrate_mount(CLI::App& calibrate, Work& work);
 
 /// --config, --set, --seed and --threads, with the same meaning wherever they appear.
 struct SettingsFlags {

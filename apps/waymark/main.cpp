@@ -70,6 +70,7 @@ int run_program(int argc, char** argv) {
   add_eval(app, work);
   add_sweep(app, work);
   add_check(app, work);
+  add_calibrate(app, work);
   add_bench(app, work);
   add_map(app, work);
   add_config(app, work);

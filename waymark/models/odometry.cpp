@@ -111,6 +111,11 @@ Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
       {k * c, ds * (k1 * c - 0.5 * k * s)}, {k * s, ds * (k1 * s + 0.5 * k * c)}, {0.0, 1.0}};
 }
 
+double arc_length_m(const Pose2& increment, ArcModel model) {
+  const double chord_m = std::copysign(increment.position().norm(), increment.x_m);
+  return chord_m / chord_ratio(increment.theta_rad, model).value;
+}
+
 Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model) {
   const double after_rad = increment.theta_rad + turn_rad;
   const double longer = chord_ratio(after_rad, model).value / chord_ratio(increment.theta_rad, model).value;
@@ -191,9 +196,7 @@ Motion odometry_pose_motion(const Pose2& T_odom_before, const Pose2& T_odom_afte
                             const OdometryOptions& options) {
   const Pose2 moved = T_odom_before.inverse() * T_odom_after;
   // The noise grows with the arc, of which only the chord is known.
-  const double chord_m = std::copysign(moved.position().norm(), moved.x_m);
-  const double arc_m = chord_m / chord_ratio(moved.theta_rad, options.arc).value;
-  const ArcStep step = scaled({arc_m, moved.theta_rad}, options);
+  const ArcStep step = scaled({arc_length_m(moved, options.arc), moved.theta_rad}, options);
   const Pose2 increment{options.speed_scale * moved.x_m, options.speed_scale * moved.y_m,
                         wrap_angle(step.turn_rad)};
   return {increment, slip_covariance(step, options.noise, options.arc)};

@@ -9,6 +9,7 @@ namespace waymark {
 [[nodiscard]] std::string_view report_page();
 [[nodiscard]] std::string_view sweep_page();
 [[nodiscard]] std::string_view consistency_page();
+[[nodiscard]] std::string_view calibration_page();
 
 inline constexpr std::string_view kPageDataMark = "<!-- data -->";
 

@@ -20,6 +20,13 @@ void describe(Schema& schema, SmoothOptions& o) {
   schema.real("smooth.turn_bias_sigma_degps", o.turn_bias_sigma_degps, {0.0, 100.0},
               "the same of what the odometry turns by itself while the robot moves, degrees per second; 0: "
               "nothing");
+  schema.real("smooth.turn_per_m_sigma_deg", o.turn_per_m_sigma_deg, {0.0, 1000.0},
+              "the same of what the odometry turns by itself per metre, as with wheels of different size, "
+              "degrees; 0: nothing");
+  schema.real("smooth.mount_sigma_m", o.mount_sigma_m, {0.0, 100.0},
+              "the same of where the landmark sensor sits on the robot, m; 0: where the config says");
+  schema.real("smooth.mount_yaw_sigma_deg", o.mount_yaw_sigma_deg, {0.0, 180.0},
+              "the same of where it looks, beside what sensor.shared_bearing_sigma_deg says, degrees");
 }
 
 }  // namespace waymark

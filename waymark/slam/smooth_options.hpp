@@ -15,6 +15,9 @@ struct SmoothOptions {
   double speed_scale_sigma = 0.05;
   double turn_scale_sigma = 0.05;
   double turn_bias_sigma_degps = 0.1;
+  double turn_per_m_sigma_deg = 0.0;
+  double mount_sigma_m = 0.0;
+  double mount_yaw_sigma_deg = 0.0;
 };
 
 /// Keys smooth.*.

@@ -7,6 +7,10 @@
 namespace waymark::smooth {
 namespace {
 
+Pose2 moved_mount(const Pose2& T_robot_sensor, const Calibration& c) {
+  return {T_robot_sensor.x_m + c[kMountX], T_robot_sensor.y_m + c[kMountY], T_robot_sensor.theta_rad};
+}
+
 /// Predicted range and bearing of a calibrated sensor, less what was measured of them.
 struct Predicted {
   Eigen::Vector2d residual;
@@ -17,7 +21,7 @@ struct Predicted {
 Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                   const Eigen::Vector2d& p_world, const Calibration& c) {
   Predicted predicted;
-  predicted.model = RangeBearingModel::linearize(T_world_robot, T_robot_sensor, p_world);
+  predicted.model = RangeBearingModel::linearize(T_world_robot, moved_mount(T_robot_sensor, c), p_world);
   const double distance_m = predicted.model.predicted[0];
   const double scale = 1.0 + c[kRangeScale];
   predicted.residual = {scale * distance_m + c[kRangeOffset] - measured[0],
@@ -28,6 +32,9 @@ Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, c
   predicted.J_calibration(0, kRangeScale) = distance_m;
   predicted.J_calibration(0, kRangeOffset) = 1.0;
   predicted.J_calibration(1, kBearingOffset) = 1.0;
+  // A sensor that moves ahead sees what a landmark that comes nearer shows.
+  static_assert(kMountY == kMountX + 1);
+  predicted.J_calibration.middleCols<2>(kMountX) = -predicted.model.H_landmark * T_world_robot.rotation();
   return predicted;
 }
 
@@ -82,7 +89,7 @@ LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration)
 SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
                                   const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
                                   const Calibration& calibration) {
-  const Pose2 T_world_sensor = T_world_robot * T_robot_sensor;
+  const Pose2 T_world_sensor = T_world_robot * moved_mount(T_robot_sensor, calibration);
   if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
   const auto predicted = [&](double range_m, double bearing_rad) {
     return predict({range_m, bearing_rad}, T_world_robot, T_robot_sensor, p_world, calibration);

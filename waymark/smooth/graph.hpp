@@ -42,7 +42,8 @@ struct Graph {
   Pose2 T_robot_sensor;
   std::vector<Leg> legs;
   std::vector<Sighting> sightings;
-  Calibration calibration_sigmas = Calibration::Zero();  ///< before the log; 0: is not estimated
+  Calibration calibration_mean = Calibration::Zero();    ///< what it is taken to be before the log
+  Calibration calibration_sigmas = Calibration::Zero();  ///< how surely; 0: is not estimated
   bool odometry_is_commanded = false;  ///< a robot strays from commands; measurements stray from a robot
   /// How far, as a standard deviation, landmarks may be from where they start: what few bearings or ranges do
   /// not fix would go far.

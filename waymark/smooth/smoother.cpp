@@ -181,12 +181,14 @@ RunGraph graph_of(const Recording& recording, const Config& config) {
   return run;
 }
 
-Result<Smoothed> smooth(const Recording& recording, const Config& config) {
+Result<Smoothed> smooth(const Recording& recording, const Config& config,
+                        const Calibration& calibration_before) {
   if (config.observe == Observe::kPixel) return Error{"smooth.run: takes range, bearing or both; not pixels"};
   if (recording.motions.size() != recording.trajectory.size() || recording.trajectory.empty())
     return Error{"smooth.run: the run has kept nothing to smooth"};
   const Duration start = thread_cpu_time();
-  const RunGraph run = graph_of(recording, config);
+  RunGraph run = graph_of(recording, config);
+  run.graph.calibration_mean = calibration_before;
   SolveOptions options;
   options.robust_dof = config.smooth.robust_dof;
   options.most_iterations = config.smooth.most_iterations;
@@ -196,6 +198,7 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config) {
   smoothed.landmarks = map_of(run, solution);
   smoothed.calibration = {solution.estimate.calibration, solution.calibration_sigmas,
                           run.graph.calibration_sigmas};
+  smoothed.calibration_covariance = solution.calibration_covariance;
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
   smoothed.poses = run.steps.size();

@@ -16,6 +16,7 @@ struct Smoothed {
   Trajectory trajectory;  ///< a point for each of the run's; covariances given the first
   std::vector<LandmarkEstimate> landmarks;
   CalibrationEstimate calibration;
+  CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
   int iterations = 0;
   bool converged = false;
   std::size_t poses = 0;      ///< that were estimated: those at which something was seen
@@ -36,7 +37,9 @@ struct RunGraph {
 [[nodiscard]] RunGraph graph_of(const Recording& recording, const Config& config);
 
 /// Estimates path, map and calibration of a run that kept what that needs (smooth.run) from the whole log.
-/// The error says what the run lacks.
-[[nodiscard]] Result<Smoothed> smooth(const Recording& recording, const Config& config);
+/// `calibration_before`: what the deviations from the config are taken to be before anything is seen. The
+/// error says what the run lacks.
+[[nodiscard]] Result<Smoothed> smooth(const Recording& recording, const Config& config,
+                                      const Calibration& calibration_before = Calibration::Zero());
 
 }  // namespace waymark::smooth

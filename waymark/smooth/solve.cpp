@@ -188,7 +188,8 @@ class Solver {
     for (std::size_t i = 0; i < layout_.estimated().size(); ++i) {
       const Eigen::Index which = layout_.estimated()[i];
       const double sigma = graph_.calibration_sigmas[which];
-      equations.add_prior(layout_.calibration() + static_cast<Eigen::Index>(i), estimate_.calibration[which],
+      equations.add_prior(layout_.calibration() + static_cast<Eigen::Index>(i),
+                          estimate_.calibration[which] - graph_.calibration_mean[which],
                           1.0 / (sigma * sigma));
     }
     return equations;
@@ -246,7 +247,7 @@ class Solver {
       sum += (at.landmarks[i] - landmarks_before_[i]).squaredNorm() /
              (graph_.landmark_sigma_m * graph_.landmark_sigma_m);
     for (const Eigen::Index i : layout_.estimated())
-      sum += std::pow(at.calibration[i] / graph_.calibration_sigmas[i], 2);
+      sum += std::pow((at.calibration[i] - graph_.calibration_mean[i]) / graph_.calibration_sigmas[i], 2);
     return sum;
   }
 
@@ -265,6 +266,7 @@ class Solver {
 
   void add_covariances(Solution& solution) {
     if (layout_.size() == 0 || !factorize(linearize().H(), 0.0)) return;
+    add_calibration_covariance(solution);
     const auto P = SelectedInverse::compute(factor_, options_.most_covariance_work);
     if (!P) return;
     solution.pose_covariances.emplace_back(Eigen::Matrix3d::Zero());
@@ -272,9 +274,17 @@ class Solver {
       solution.pose_covariances.push_back(marginal<3>(*P, Layout::pose(i)));
     for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
-    for (std::size_t i = 0; i < layout_.estimated().size(); ++i)
-      solution.calibration_sigmas[layout_.estimated()[i]] =
-          std::sqrt(marginal<1>(*P, layout_.calibration() + static_cast<Eigen::Index>(i))(0));
+  }
+
+  /// Its columns are cheap, however large the rest is.
+  void add_calibration_covariance(Solution& solution) const {
+    const std::vector<Eigen::Index>& estimated = layout_.estimated();
+    for (std::size_t i = 0; i < estimated.size(); ++i) {
+      const Eigen::Index column = layout_.calibration() + static_cast<Eigen::Index>(i);
+      const Eigen::VectorXd P = factor_.solve(Eigen::VectorXd::Unit(layout_.size(), column));
+      solution.calibration_covariance(estimated, estimated[i]) = P.tail(std::ssize(estimated));
+    }
+    solution.calibration_sigmas = solution.calibration_covariance.diagonal().cwiseSqrt();
   }
 
   template <int Size>

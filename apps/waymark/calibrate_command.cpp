@@ -1,0 +1,16 @@
+#include "commands.hpp"
+
+namespace waymark::app {
+
+void add_calibrate(CLI::App& app, Work& work) {
+  auto* calibrate =
+      app.add_subcommand("calibrate", "Find out what a robot and its sensors are like, from recordings");
+  calibrate->require_subcommand(1);
+  calibrate->footer(
+      "Examples:\n"
+      "  waymark calibrate odometry LOG -o out && waymark run LOG --config out/calibration.yaml");
+  add_calibrate_odometry(*calibrate, work);
+  add_calibrate_mount(*calibrate, work);
+}
+
+}  // namespace waymark::app
