@@ -114,8 +114,7 @@ TEST(CalibrateOdometry, SaysWhatTheLogLacks) {
   ASSERT_FALSE(blind.ok());
   EXPECT_THAT(blind.error().message, HasSubstr("no landmark was seen"));
   const auto stopped =
-      calibrate_log("sim:square", {}, Subject::kOdometry, {},
-                                     [](int, double) { return false; });
+      calibrate_log("sim:square", {}, Subject::kOdometry, {}, [](int, double) { return false; });
   ASSERT_FALSE(stopped.ok());
   EXPECT_EQ(stopped.error().kind, Error::Kind::kFailed);
 }

@@ -22,20 +22,6 @@ ArcStep scaled(ArcStep step, const OdometryOptions& options) {
   return {options.speed_scale * step.distance_m, options.turn_scale * step.turn_rad};
 }
 
-/// Slip in distance and turn goes the way of the arc itself, so that a turn error moves the end point too;
-/// lateral slip stands across the chord.
-Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
-  const double distance = std::abs(step.distance_m);
-  const double turn = std::abs(step.turn_rad);
-  Eigen::Matrix3d S;
-  S.leftCols<2>() = arc_jacobian(step, model);
-  S.col(2) << -std::sin(0.5 * step.turn_rad), std::cos(0.5 * step.turn_rad), 0.0;
-  const Eigen::Vector3d variances(noise.forward_var_m2_per_m * distance,
-                                  noise.turn_var_rad2_per_rad * turn + noise.turn_var_rad2_per_m * distance,
-                                  noise.lateral_var_m2_per_m * distance);
-  return S * variances.asDiagonal() * S.transpose();
-}
-
 }  // namespace
 
 void describe(Schema& schema, OdometryOptions& o) {
@@ -109,6 +95,18 @@ Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
   const auto [k, k1] = chord_ratio(step.turn_rad, model);
   return Eigen::Matrix<double, 3, 2>{
       {k * c, ds * (k1 * c - 0.5 * k * s)}, {k * s, ds * (k1 * s + 0.5 * k * c)}, {0.0, 1.0}};
+}
+
+Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
+  const double distance = std::abs(step.distance_m);
+  const double turn = std::abs(step.turn_rad);
+  Eigen::Matrix3d S;
+  S.leftCols<2>() = arc_jacobian(step, model);
+  S.col(2) << -std::sin(0.5 * step.turn_rad), std::cos(0.5 * step.turn_rad), 0.0;
+  const Eigen::Vector3d variances(noise.forward_var_m2_per_m * distance,
+                                  noise.turn_var_rad2_per_rad * turn + noise.turn_var_rad2_per_m * distance,
+                                  noise.lateral_var_m2_per_m * distance);
+  return S * variances.asDiagonal() * S.transpose();
 }
 
 double arc_length_m(const Pose2& increment, ArcModel model) {

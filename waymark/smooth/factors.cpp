@@ -1,5 +1,7 @@
 #include "waymark/smooth/factors.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 #include "waymark/models/observation_models.hpp"
@@ -73,16 +75,19 @@ LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
   return factor;
 }
 
-LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration) {
-  const double longer = 1.0 + calibration[kSpeedScale];
-  const double turning_more = 1.0 + calibration[kTurnScale];
-  const Eigen::Vector3d unit(1.0 / longer, 1.0 / longer, 1.0 / turning_more);
-  factor.residual = unit.asDiagonal() * factor.residual;
-  factor.J_before = unit.asDiagonal() * factor.J_before;
-  factor.J_after = unit.asDiagonal() * factor.J_after;
-  factor.J_calibration = unit.asDiagonal() * factor.J_calibration;
-  factor.J_calibration.col(kSpeedScale).head<2>() -= factor.residual.head<2>() / longer;
-  factor.J_calibration(2, kTurnScale) -= factor.residual[2] / turning_more;
+LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
+                      const Calibration& calibration) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const CalibrationIndex which = i == 2 ? kTurnScale : kSpeedScale;
+    const double scale = 1.0 + calibration[which];
+    const double variance = 1.0 + measured_part[i] * (scale * scale - 1.0);
+    const double unit = 1.0 / std::sqrt(variance);
+    factor.residual[i] *= unit;
+    factor.J_before.row(i) *= unit;
+    factor.J_after.row(i) *= unit;
+    factor.J_calibration.row(i) *= unit;
+    factor.J_calibration(i, which) -= measured_part[i] * scale / variance * factor.residual[i];
+  }
   return factor;
 }
 
