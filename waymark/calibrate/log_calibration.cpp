@@ -70,10 +70,15 @@ class Passes {
     pass.odometry = *pass.recording.odometry;
     keep_one_bias(pass.config.smooth, pass.odometry);
     if (!before_) before_ = pass.config;
-    auto smoothed =
-        smooth::smooth(pass.recording, pass.config, deviation(pass.config, *before_, pass.odometry));
+    auto smoothed = smooth::smooth(pass.recording, pass.config,
+                                   {deviation(pass.config, *before_, pass.odometry), steps_});
     if (!smoothed) return smoothed.error();
+    if (smoothed->sightings == 0)
+      return Error{input_ +
+                   ": the filter mapped no landmark that it saw from two places; filter=fastslam can "
+                   "start from ranges or bearings alone"};
     pass.smoothed = *std::move(smoothed);
+    steps_ = pass.smoothed.steps;
     return pass;
   }
 
@@ -91,6 +96,7 @@ class Passes {
   UserSettings user_;
   TimeSpan span_;
   std::optional<Config> before_;
+  std::vector<std::size_t> steps_;  // the same in every pass: another choice would be other data
 };
 
 bool has_settled(const CalibrationEstimate& estimate) {

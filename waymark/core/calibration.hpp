@@ -21,8 +21,9 @@ enum CalibrationIndex : Eigen::Index {
 using Calibration = Eigen::Matrix<double, kCalibrationSize, 1>;
 using CalibrationCovariance = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
 
-/// What is known not much better than this part of what was assumed was not learnt.
-inline constexpr double kTold = 0.9;
+/// What is not known better than by this part of the standard deviation that was assumed rests on that
+/// assumption more than on what was measured: the square root of a half.
+inline constexpr double kTold = 0.7071;
 
 /// What was learnt of them.
 struct CalibrationEstimate {

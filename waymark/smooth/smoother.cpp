@@ -1,5 +1,6 @@
 #include "waymark/smooth/smoother.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -13,8 +14,9 @@ namespace {
 /// Takes the steps of the odometry together to legs between the poses at which something was seen.
 class LegBuilder {
  public:
-  LegBuilder(const Recording& recording, const Config& config, RunGraph& run)
-      : recording_(recording), config_(config), run_(run) {
+  LegBuilder(const Recording& recording, const Config& config, const std::vector<std::size_t>& steps,
+             RunGraph& run)
+      : recording_(recording), config_(config), steps_(steps), run_(run) {
     run_.steps.push_back(0);
     run_.start.poses.push_back(recording.trajectory.front().pose);
   }
@@ -32,13 +34,14 @@ class LegBuilder {
   /// The pose at the present step: a new one if the robot moved since the last; nothing if it did, and not
   /// far enough.
   [[nodiscard]] std::optional<int> pose_at(std::size_t step) {
-    if (!leg_.steps.empty() && !is_far()) return std::nullopt;
+    if (!leg_.steps.empty() && !is_far(step)) return std::nullopt;
     if (!leg_.steps.empty()) add_pose(step);
     return static_cast<int>(run_.steps.size()) - 1;
   }
 
  private:
-  [[nodiscard]] bool is_far() const {
+  [[nodiscard]] bool is_far(std::size_t step) const {
+    if (!steps_.empty()) return std::ranges::binary_search(steps_, step);
     return motion_.increment.position().norm() >= config_.smooth.least_leg_m ||
            std::abs(motion_.increment.theta_rad) >= to_radians(config_.smooth.least_leg_deg);
   }
@@ -70,6 +73,7 @@ class LegBuilder {
 
   const Recording& recording_;
   const Config& config_;
+  const std::vector<std::size_t>& steps_;
   RunGraph& run_;
   Leg leg_;
   Motion motion_;
@@ -189,13 +193,14 @@ std::vector<LandmarkEstimate> map_of(const RunGraph& run, const Solution& soluti
 
 }  // namespace
 
-RunGraph graph_of(const Recording& recording, const Config& config) {
+RunGraph graph_of(const Recording& recording, const Config& config, const Before& before) {
   RunGraph run;
   run.graph.T_robot_sensor = config.sensor.T_robot_sensor();
   run.graph.landmark_sigma_m = config.sensor.max_range_m;
+  run.graph.calibration_mean = before.calibration;
   run.graph.calibration_sigmas = calibration_sigmas(config.smooth, config.sensor.errors, config.observe);
   const std::map<LandmarkId, int> index = add_landmarks(recording, run);
-  LegBuilder legs(recording, config, run);
+  LegBuilder legs(recording, config, before.steps, run);
   auto sighting = recording.sightings.begin();
   for (std::size_t step = 0; step < recording.trajectory.size(); ++step) {
     if (step > 0) legs.advance(step);
@@ -212,14 +217,12 @@ RunGraph graph_of(const Recording& recording, const Config& config) {
   return run;
 }
 
-Result<Smoothed> smooth(const Recording& recording, const Config& config,
-                        const Calibration& calibration_before) {
+Result<Smoothed> smooth(const Recording& recording, const Config& config, const Before& before) {
   if (config.observe == Observe::kPixel) return Error{"smooth.run: takes range, bearing or both; not pixels"};
   if (recording.motions.size() != recording.trajectory.size() || recording.trajectory.empty())
     return Error{"smooth.run: the run has kept nothing to smooth"};
   const Duration start = thread_cpu_time();
-  RunGraph run = graph_of(recording, config);
-  run.graph.calibration_mean = calibration_before;
+  RunGraph run = graph_of(recording, config, before);
   SolveOptions options;
   options.robust_dof = config.smooth.robust_dof;
   options.most_iterations = config.smooth.most_iterations;
@@ -232,7 +235,7 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config,
   smoothed.calibration_covariance = solution.calibration_covariance;
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
-  smoothed.poses = run.steps.size();
+  smoothed.steps = std::move(run.steps);
   smoothed.sightings = run.graph.sightings.size();
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
