@@ -92,7 +92,7 @@ TEST(Solve, FindsWhatTheOdometryWasLike) {
   wrong[kTurnScale] = 0.2;
   for (Leg& leg : world.graph.legs)
     leg.steps[0].increment = calibrate(leg.steps[0].increment, 0.1, wrong).increment;
-  world.graph.calibration_sigmas << 0.2, 0.2, 0.0, 0.0, 0.0, 0.0;
+  world.graph.calibration_sigmas.head<6>() << 0.2, 0.2, 0.0, 0.0, 0.0, 0.0;
   const Solution solution = solve(world.graph, world.start);
   const Calibration& c = solution.estimate.calibration;
   const Calibration& sigma = solution.calibration_sigmas;
@@ -109,7 +109,7 @@ TEST(Solve, FindsWhatTheSensorWasLike) {
     auto& z = std::get<RangeBearing>(sighting.value);
     z = {1.05 * z.range_m + 0.2, z.bearing_rad + 0.03};
   }
-  world.graph.calibration_sigmas << 0.0, 0.0, 0.0, 0.2, 1.0, 0.1;
+  world.graph.calibration_sigmas.head<6>() << 0.0, 0.0, 0.0, 0.2, 1.0, 0.1;
   const Solution solution = solve(world.graph, world.start);
   const Calibration& c = solution.estimate.calibration;
   const Calibration& sigma = solution.calibration_sigmas;

@@ -20,11 +20,11 @@ struct Solution {
   bool converged = false;
   double cost_before = 0.0;  ///< minus twice the logarithm of the likelihood, but for a constant
   double cost = 0.0;
-  /// Of each pose given the first, of each landmark and of what is calibrated; empty where that would have
-  /// taken too long.
+  /// Of each pose given the first and of each landmark; empty where that would have taken too long.
   std::vector<Eigen::Matrix3d> pose_covariances;
   std::vector<Eigen::Matrix2d> landmark_covariances;
   Calibration calibration_sigmas = Calibration::Zero();
+  CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
 };
 
 /// Poses, landmarks and calibration by which all that the log says is likeliest (Dellaert and Kaess
