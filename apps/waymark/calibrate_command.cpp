@@ -11,6 +11,7 @@ void add_calibrate(CLI::App& app, Work& work) {
       "  waymark calibrate odometry LOG -o out && waymark run LOG --config out/calibration.yaml");
   add_calibrate_odometry(*calibrate, work);
   add_calibrate_mount(*calibrate, work);
+  add_calibrate_sensor(*calibrate, work);
 }
 
 }  // namespace waymark::app

@@ -31,6 +31,7 @@ void add_calibrate(CLI::App& app, Work& work);
 /// Subcommands of `calibrate`.
 void add_calibrate_odometry(CLI::App& calibrate, Work& work);
 void add_calibrate_mount(CLI::App& calibrate, Work& work);
+void add_calibrate_sensor(CLI::App& calibrate, Work& work);
 
 /// --config, --set, --seed and --threads, with the same meaning wherever they appear.
 struct SettingsFlags {

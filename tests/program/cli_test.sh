@@ -37,7 +37,7 @@ refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles -5
 refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 99999999999999999999
-refuses 2 'range-bearing, range, bearing or pixel' run sim:square -o o --filter fastslam --observe sonar
+refuses 2 'range-bearing, range, bearing, pixel or markers' run sim:square -o o --filter fastslam --observe sonar
 refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
 refuses 2 'square' run sim:sqare -o o
@@ -326,7 +326,7 @@ fi
 
 # Every level of help shows an example.
 # What a log says of its robot: mistakes, a straight way, and what was found as a config.
-refuses 2 'calibrate' calibrate
+refuses 2 'A subcommand is required' calibrate
 refuses 2 'nowhere' calibrate odometry nowhere -o c
 refuses 2 'no landmark was seen' calibrate odometry sim:square -o c --set sim.landmarks=0
 mkdir still
@@ -343,9 +343,13 @@ done
 grep -q '^wheels.track_m: 0.3[1-5]' c/calibration.yaml || fail "calibrate found: $(cat c/calibration.yaml)"
 does run log -o calibrated --config c/calibration.yaml
 does calibrate odometry log -o c --json
+does calibrate sensor log -o cs --set sensor.range_sigma_m=0.2
+grep -q '^sensor.range_sigma_m: 0.0[45]' cs/calibration.yaml || fail "calibrate sensor found: $(cat cs/calibration.yaml)"
+refuses 2 'no landmark' calibrate sensor sim:square -o cs --set sim.landmarks=0
+does calibrate odometry log -o c --json
 cmp -s out.txt c/calibration.json || fail 'calibrate --json prints something else than calibration.json'
 
-for command in '' run demo sim eval sweep check bench config calibrate 'calibrate odometry' 'calibrate mount' map 'map show' 'map convert' 'map merge' 'map fix'; do
+for command in '' run demo sim eval sweep check bench config calibrate 'calibrate odometry' 'calibrate mount' 'calibrate sensor' map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done
