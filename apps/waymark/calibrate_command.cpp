@@ -13,6 +13,7 @@ void add_calibrate(CLI::App& app, Work& work) {
   add_calibrate_camera(*calibrate, work);
   add_calibrate_odometry(*calibrate, work);
   add_calibrate_mount(*calibrate, work);
+  add_calibrate_sensor(*calibrate, work);
 }
 
 }  // namespace waymark::app

@@ -8,5 +8,6 @@ namespace waymark::app {
 void add_calibrate_camera(CLI::App& calibrate, Work& work);
 void add_calibrate_odometry(CLI::App& calibrate, Work& work);
 void add_calibrate_mount(CLI::App& calibrate, Work& work);
+void add_calibrate_sensor(CLI::App& calibrate, Work& work);
 
 }  // namespace waymark::app

@@ -415,10 +415,14 @@ done
 grep -q '^wheels.track_m: 0.3[1-5]' c/calibration.yaml || fail "calibrate found: $(cat c/calibration.yaml)"
 does run log -o calibrated --config c/calibration.yaml
 does calibrate odometry log -o c --json
+does calibrate sensor log -o cs --set sensor.range_sigma_m=0.2
+grep -q '^sensor.range_sigma_m: 0.0[45]' cs/calibration.yaml || fail "calibrate sensor found: $(cat cs/calibration.yaml)"
+refuses 2 'no landmark' calibrate sensor sim:square -o cs --set sim.landmarks=0
+does calibrate odometry log -o c --json
 cmp -s out.txt c/calibration.json || fail 'calibrate --json prints something else than calibration.json'
 
 # Every level of help shows an example.
-for command in '' run demo sim eval sweep tune check calibrate 'calibrate camera' 'calibrate odometry' 'calibrate mount' bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
+for command in '' run demo sim eval sweep tune check calibrate 'calibrate camera' 'calibrate odometry' 'calibrate mount' 'calibrate sensor' bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

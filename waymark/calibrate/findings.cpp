@@ -70,11 +70,11 @@ std::vector<smooth::CalibratedKey> keys_of(const std::vector<Finding>& findings)
   return keys;
 }
 
-Calibration deviation(const Config& during, const Config& to, OdometryKind kind) {
+Calibration deviation(const Config& during, const Config& to, OdometryKind odometry) {
   const OdometryOptions& a = during.odometry;
   const OdometryOptions& b = to.odometry;
   Calibration c = Calibration::Zero();
-  if (kind == OdometryKind::kWheels) {
+  if (odometry == OdometryKind::kWheels) {
     c = deviation(with_scales(a), with_scales(b));
   } else {
     c[kSpeedScale] = b.speed_scale / a.speed_scale - 1.0;

@@ -237,6 +237,8 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   smoothed.converged = solution.converged;
   smoothed.steps = std::move(run.steps);
   smoothed.sightings = run.graph.sightings.size();
+  for (std::size_t i = 0; i < solution.remainders.size(); ++i)
+    smoothed.remainders.push_back({run.graph.sightings[i].value, solution.remainders[i]});
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
 }

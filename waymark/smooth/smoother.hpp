@@ -11,6 +11,12 @@
 
 namespace waymark::smooth {
 
+/// A sighting of a landmark of the map, and what is left over of it.
+struct SmoothedSighting {
+  Measurement measured;
+  Remainder remainder;
+};
+
 /// What a whole log says, each pose by what came before and after it.
 struct Smoothed {
   Trajectory trajectory;  ///< a point for each of the run's; covariances given the first
@@ -21,6 +27,7 @@ struct Smoothed {
   bool converged = false;
   std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
   std::size_t sightings = 0;       ///< of landmarks of the map
+  std::vector<SmoothedSighting> remainders;  ///< of these; empty where there were too many for covariances
   Duration cpu{0};
 };
 

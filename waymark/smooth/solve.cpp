@@ -277,6 +277,33 @@ class Solver {
       solution.pose_covariances.push_back(marginal<3>(*P, Layout::pose(i)));
     for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
+    for (const Sighting& sighting : graph_.sightings)
+      solution.remainders.push_back(remainder_of(sighting, *P));
+  }
+
+  /// All variables that a sighting depends on are joined in the pattern of the inverse.
+  [[nodiscard]] Remainder remainder_of(const Sighting& sighting, const SelectedInverse& P) const {
+    const SightingFactor f = factor_of(estimate_, sighting);
+    const Eigen::Index calibrated = std::ssize(layout_.estimated());
+    Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + calibrated);
+    J << f.J_pose, f.J_landmark, f.J_calibration(Eigen::all, layout_.estimated());
+    std::vector<Eigen::Index> at;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      at.push_back(Layout::pose(static_cast<std::size_t>(sighting.pose)) + i);
+    for (Eigen::Index i = 0; i < 2; ++i)
+      at.push_back(layout_.landmark(static_cast<std::size_t>(sighting.landmark)) + i);
+    for (Eigen::Index i = 0; i < calibrated; ++i) at.push_back(layout_.calibration() + i);
+    Eigen::Matrix2d followed = Eigen::Matrix2d::Zero();
+    for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t j = 0; j < at.size(); ++j)
+        if (at[i] >= 0 && at[j] >= 0)
+          followed += J.col(static_cast<Eigen::Index>(i)) * P(at[i], at[j]) *
+                      J.col(static_cast<Eigen::Index>(j)).transpose();
+    const Eigen::Matrix2d root = sighting.covariance.llt().matrixL();
+    if (f.dof < 2)
+      return {std::sqrt(sighting.covariance(0, 0)) * f.residual,
+              sighting.covariance(0, 0) * followed.diagonal()};
+    return {root * f.residual, (root * followed * root.transpose()).diagonal()};
   }
 
   /// Its columns are cheap, however large the rest is.
