@@ -3,10 +3,17 @@
 namespace waymark::app {
 
 void add_calibrate(CLI::App& app, Work& work) {
-  auto* calibrate = app.add_subcommand("calibrate", "What a robot's sensors are like, from recordings");
+  auto* calibrate =
+      app.add_subcommand("calibrate", "Find out what a robot and its sensors are like, from recordings");
   calibrate->require_subcommand(1);
-  calibrate->footer("Example:\n  waymark calibrate camera photos/ --corners 9x6 --square_m 0.025 -o camera");
+  calibrate->footer(
+      "Examples:\n"
+      "  waymark calibrate camera photos/ --corners 9x6 --square_m 0.025 -o camera\n"
+      "  waymark calibrate odometry LOG -o out && waymark run LOG --config out/calibration.yaml");
   add_calibrate_camera(*calibrate, work);
+  add_calibrate_odometry(*calibrate, work);
+  add_calibrate_mount(*calibrate, work);
+  add_calibrate_sensor(*calibrate, work);
 }
 
 }  // namespace waymark::app

@@ -398,8 +398,31 @@ else
   fi
 fi
 
+# What a log says of its robot: mistakes, a straight way, and what was found as a config.
+refuses 2 'nowhere' calibrate odometry nowhere -o c
+refuses 2 'no landmark was seen' calibrate odometry sim:square -o c --set sim.landmarks=0
+mkdir still
+printf 'waymark_log: 1\nname: still\n' >still/log.yaml
+printf 'stamp_s,id,range_m,bearing_rad\n0,1,2,0\n1,1,2,0\n' >still/observations.csv
+refuses 2 'no odometry' calibrate mount still -o c
+does calibrate mount sim:square --to 8 -o straight
+grep -q 'not told by this log' out.txt || fail 'calibrate says nothing of a straight way'
+does calibrate odometry log -o c --set wheels.track_m=0.3 --quiet
+[ ! -s out.txt ] || fail "calibrate --quiet says: $(cat out.txt)"
+for file in calibration.yaml calibration.json report.html; do
+  [ -s "c/$file" ] || fail "calibrate wrote no $file"
+done
+grep -q '^wheels.track_m: 0.3[1-5]' c/calibration.yaml || fail "calibrate found: $(cat c/calibration.yaml)"
+does run log -o calibrated --config c/calibration.yaml
+does calibrate odometry log -o c --json
+does calibrate sensor log -o cs --set sensor.range_sigma_m=0.2
+grep -q '^sensor.range_sigma_m: 0.0[45]' cs/calibration.yaml || fail "calibrate sensor found: $(cat cs/calibration.yaml)"
+refuses 2 'no landmark' calibrate sensor sim:square -o cs --set sim.landmarks=0
+does calibrate odometry log -o c --json
+cmp -s out.txt c/calibration.json || fail 'calibrate --json prints something else than calibration.json'
+
 # Every level of help shows an example.
-for command in '' run demo sim eval sweep tune check calibrate 'calibrate camera' bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
+for command in '' run demo sim eval sweep tune check calibrate 'calibrate camera' 'calibrate odometry' 'calibrate mount' 'calibrate sensor' bench config map 'map show' 'map convert' 'map merge' 'map fix'; do
   # shellcheck disable=SC2086
   "$waymark" $command --help | grep -q 'Example' || fail "waymark $command --help shows no example"
 done

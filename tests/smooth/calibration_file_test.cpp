@@ -17,8 +17,8 @@ using testing::Not;
 
 TEST(CalibrationYaml, IsAConfigThatPutsItInForce) {
   CalibrationEstimate estimate;
-  estimate.mean << 0.1, -0.2, to_radians(0.3), 0.05, 0.2, 0.01;
-  estimate.sigmas << 0.01, 0.01, 0.01, 0.01, 0.01, 0.0;
+  estimate.mean.head<6>() << 0.1, -0.2, to_radians(0.3), 0.05, 0.2, 0.01;
+  estimate.sigmas.head<6>() << 0.01, 0.01, 0.01, 0.01, 0.01, 0.0;
   Config config;
   config.odometry.speed_scale = 1.1;
   config.odometry.turn_bias_degps = 0.5;
@@ -51,8 +51,8 @@ TEST(CalibrationYaml, SaysWhatTheScalesMeanForTwoWheels) {
 
 TEST(CalibrationYaml, SaysWhatTheLogDoesNotTell) {
   CalibrationEstimate estimate;
-  estimate.sigmas << 0.01, 0.1, 0.0, 0.0, 0.0, 0.0;
-  estimate.prior_sigmas << 0.1, 0.1, 0.0, 0.0, 0.0, 0.0;
+  estimate.sigmas.head<6>() << 0.01, 0.1, 0.0, 0.0, 0.0, 0.0;
+  estimate.prior_sigmas.head<6>() << 0.1, 0.1, 0.0, 0.0, 0.0, 0.0;
   const std::string yaml = calibration_yaml(estimate, {});
   EXPECT_THAT(yaml, HasSubstr("motion.speed_scale: 1  # +- 0.01\n"));
   EXPECT_THAT(yaml, HasSubstr("motion.turn_scale: 1  # +- 0.1, as assumed: the log says nothing of it\n"));

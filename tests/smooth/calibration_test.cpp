@@ -30,6 +30,15 @@ TEST(Calibrate, MakesAnArcLongerAndTurnsItMore) {
                           Eigen::Vector3d::Zero(), 1e-14));
 }
 
+TEST(Calibrate, TurnsMorePerMetre) {
+  Calibration c = Calibration::Zero();
+  c[kTurnPerMetre] = 0.1;
+  const Pose2 backwards = arc_increment({-0.5, 0.4}, ArcModel::kExact);
+  const Pose2 expected = arc_increment({-0.5, 0.35}, ArcModel::kExact);
+  EXPECT_TRUE(matrix_near(difference(calibrate(backwards, 0.2, c).increment, expected),
+                          Eigen::Vector3d::Zero(), 1e-14));
+}
+
 TEST(Calibrate, LeavesAnIncrementAndARobotThatStandsAlone) {
   const Pose2 measured{0.3, -0.1, 0.2};
   EXPECT_TRUE(matrix_near(difference(calibrate(measured, 0.1, Calibration::Zero()).increment, measured),

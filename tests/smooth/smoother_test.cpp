@@ -87,6 +87,20 @@ TEST(Smoother, PathBetweenSightingsIsThatOfTheOdometryBentToMeetThem) {
   }
 }
 
+TEST(Smoother, LeavesOutWhatIsSeenOnShortLegs) {
+  const LiveRun live = drive({"smooth.least_leg_m=0.3", "smooth.least_leg_deg=20"});
+  const RunGraph graph = graph_of(live.recording, live.config);
+  ASSERT_GT(graph.steps.size(), 10U);
+  for (const Leg& leg : graph.graph.legs) {
+    const Pose2 moved = motion_of(leg, Calibration::Zero()).increment;
+    EXPECT_TRUE(moved.position().norm() >= 0.3 || std::abs(moved.theta_rad) >= to_radians(20.0));
+  }
+  Config any = live.config;
+  any.smooth.least_leg_m = any.smooth.least_leg_deg = 0.0;
+  EXPECT_GT(graph_of(live.recording, any).steps.size(), 2 * graph.steps.size());
+  EXPECT_EQ(graph_of(live.recording, any, {Calibration::Zero(), graph.steps}).steps, graph.steps);
+}
+
 TEST(Smoother, SaysWhatCannotBeSmoothed) {
   LiveRun live = drive({});
   live.recording.motions.clear();

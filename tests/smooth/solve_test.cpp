@@ -62,6 +62,40 @@ TEST(Solve, FindsPathAndMapAndIsAsSureAsItMayBe) {
   EXPECT_LT(nees, 5.0);
 }
 
+TEST(Solve, WhatIsLeftOverAndWhatWasFollowedMakeUpTheNoise) {
+  constexpr int kSeeds = 20;
+  Eigen::Vector2d ratio = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const World world = drive(seed, 60);
+    const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
+    ASSERT_EQ(solution.remainders.size(), world.graph.sightings.size());
+    for (std::size_t i = 0; i < solution.remainders.size(); ++i, ++count)
+      ratio += (solution.remainders[i].residual.cwiseAbs2() + solution.remainders[i].followed)
+                   .cwiseQuotient(world.graph.sightings[i].covariance.diagonal());
+  }
+  ratio /= count;
+  // The mean of chi-squares of which at least half is random.
+  const double sigma = std::sqrt(2.0 / count);
+  EXPECT_NEAR(ratio[0], 1.0, 4.0 * sigma);
+  EXPECT_NEAR(ratio[1], 1.0, 4.0 * sigma);
+}
+
+TEST(Solve, FindsWhereTheSensorSits) {
+  World world = drive(3, 200);
+  const Pose2 mount = world.graph.T_robot_sensor;
+  world.graph.T_robot_sensor = {mount.x_m - 0.1, mount.y_m + 0.15, mount.theta_rad + 0.05};
+  world.graph.calibration_sigmas[kMountX] = world.graph.calibration_sigmas[kMountY] = 0.5;
+  world.graph.calibration_sigmas[kBearingOffset] = 0.3;
+  const Solution solution = solve(world.graph, world.start);
+  const Calibration& c = solution.estimate.calibration;
+  const Calibration& sigma = solution.calibration_sigmas;
+  EXPECT_NEAR(c[kMountX], 0.1, 4.0 * sigma[kMountX]);
+  EXPECT_NEAR(c[kMountY], -0.15, 4.0 * sigma[kMountY]);
+  EXPECT_NEAR(c[kBearingOffset], 0.05, 4.0 * sigma[kBearingOffset]);
+  EXPECT_LT(sigma[kMountX], 0.25);
+}
+
 TEST(Solve, OutliersDoNotDrawIt) {
   World world = drive(1, 60);
   const double clean_m = error_m(solve(world.graph, world.start).estimate, world);
@@ -92,7 +126,7 @@ TEST(Solve, FindsWhatTheOdometryWasLike) {
   wrong[kTurnScale] = 0.2;
   for (Leg& leg : world.graph.legs)
     leg.steps[0].increment = calibrate(leg.steps[0].increment, 0.1, wrong).increment;
-  world.graph.calibration_sigmas << 0.2, 0.2, 0.0, 0.0, 0.0, 0.0;
+  world.graph.calibration_sigmas.head<6>() << 0.2, 0.2, 0.0, 0.0, 0.0, 0.0;
   const Solution solution = solve(world.graph, world.start);
   const Calibration& c = solution.estimate.calibration;
   const Calibration& sigma = solution.calibration_sigmas;
@@ -109,7 +143,7 @@ TEST(Solve, FindsWhatTheSensorWasLike) {
     auto& z = std::get<RangeBearing>(sighting.value);
     z = {1.05 * z.range_m + 0.2, z.bearing_rad + 0.03};
   }
-  world.graph.calibration_sigmas << 0.0, 0.0, 0.0, 0.2, 1.0, 0.1;
+  world.graph.calibration_sigmas.head<6>() << 0.0, 0.0, 0.0, 0.2, 1.0, 0.1;
   const Solution solution = solve(world.graph, world.start);
   const Calibration& c = solution.estimate.calibration;
   const Calibration& sigma = solution.calibration_sigmas;

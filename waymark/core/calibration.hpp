@@ -12,10 +12,18 @@ enum CalibrationIndex : Eigen::Index {
   kRangeScale,     ///< range = (1 + c) distance + offset
   kRangeOffset,    ///< m
   kBearingOffset,  ///< rad
+  kTurnPerMetre,   ///< rad/m that the odometry turns too little: one wheel is larger than the other
+  kMountX,         ///< m that the landmark sensor sits further ahead
+  kMountY,         ///< m that it sits further left
   kCalibrationSize
 };
 
 using Calibration = Eigen::Matrix<double, kCalibrationSize, 1>;
+using CalibrationCovariance = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
+
+/// What is not known better than by this part of the standard deviation that was assumed rests on that
+/// assumption more than on what was measured: the square root of a half.
+inline constexpr double kTold = 0.7071;
 
 /// What was learnt of them.
 struct CalibrationEstimate {
@@ -26,7 +34,6 @@ struct CalibrationEstimate {
   [[nodiscard]] bool is_estimated(CalibrationIndex index) const { return sigmas[index] > 0.0; }
   /// Estimated, but what was measured depends on it so little that it is what it was assumed to be.
   [[nodiscard]] bool is_untold(CalibrationIndex index) const {
-    constexpr double kTold = 0.9;
     return is_estimated(index) && sigmas[index] > kTold * prior_sigmas[index];
   }
 };

@@ -22,20 +22,6 @@ ArcStep scaled(ArcStep step, const OdometryOptions& options) {
   return {options.speed_scale * step.distance_m, options.turn_scale * step.turn_rad};
 }
 
-/// Slip in distance and turn goes the way of the arc itself, so that a turn error moves the end point too;
-/// lateral slip stands across the chord.
-Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
-  const double distance = std::abs(step.distance_m);
-  const double turn = std::abs(step.turn_rad);
-  Eigen::Matrix3d S;
-  S.leftCols<2>() = arc_jacobian(step, model);
-  S.col(2) << -std::sin(0.5 * step.turn_rad), std::cos(0.5 * step.turn_rad), 0.0;
-  const Eigen::Vector3d variances(noise.forward_var_m2_per_m * distance,
-                                  noise.turn_var_rad2_per_rad * turn + noise.turn_var_rad2_per_m * distance,
-                                  noise.lateral_var_m2_per_m * distance);
-  return S * variances.asDiagonal() * S.transpose();
-}
-
 }  // namespace
 
 void describe(Schema& schema, OdometryOptions& o) {
@@ -109,6 +95,23 @@ Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model) {
   const auto [k, k1] = chord_ratio(step.turn_rad, model);
   return Eigen::Matrix<double, 3, 2>{
       {k * c, ds * (k1 * c - 0.5 * k * s)}, {k * s, ds * (k1 * s + 0.5 * k * c)}, {0.0, 1.0}};
+}
+
+Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise, ArcModel model) {
+  const double distance = std::abs(step.distance_m);
+  const double turn = std::abs(step.turn_rad);
+  Eigen::Matrix3d S;
+  S.leftCols<2>() = arc_jacobian(step, model);
+  S.col(2) << -std::sin(0.5 * step.turn_rad), std::cos(0.5 * step.turn_rad), 0.0;
+  const Eigen::Vector3d variances(noise.forward_var_m2_per_m * distance,
+                                  noise.turn_var_rad2_per_rad * turn + noise.turn_var_rad2_per_m * distance,
+                                  noise.lateral_var_m2_per_m * distance);
+  return S * variances.asDiagonal() * S.transpose();
+}
+
+double arc_length_m(const Pose2& increment, ArcModel model) {
+  const double chord_m = std::copysign(increment.position().norm(), increment.x_m);
+  return chord_m / chord_ratio(increment.theta_rad, model).value;
 }
 
 Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model) {
@@ -191,9 +194,7 @@ Motion odometry_pose_motion(const Pose2& T_odom_before, const Pose2& T_odom_afte
                             const OdometryOptions& options) {
   const Pose2 moved = T_odom_before.inverse() * T_odom_after;
   // The noise grows with the arc, of which only the chord is known.
-  const double chord_m = std::copysign(moved.position().norm(), moved.x_m);
-  const double arc_m = chord_m / chord_ratio(moved.theta_rad, options.arc).value;
-  const ArcStep step = scaled({arc_m, moved.theta_rad}, options);
+  const ArcStep step = scaled({arc_length_m(moved, options.arc), moved.theta_rad}, options);
   const Pose2 increment{options.speed_scale * moved.x_m, options.speed_scale * moved.y_m,
                         wrap_angle(step.turn_rad)};
   return {increment, slip_covariance(step, options.noise, options.arc)};

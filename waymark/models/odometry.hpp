@@ -77,6 +77,14 @@ struct ArcStep {
 /// d(x, y, theta)/d(ds, dth) of the above, 3x2.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model);
 
+/// The distance along the path of an increment, negative backwards.
+[[nodiscard]] double arc_length_m(const Pose2& increment, ArcModel model);
+
+/// How far the robot slips from what its odometry measures in one step: in distance and turn the way of the
+/// arc itself, so that a turn error moves the end point too; sideways across the chord.
+[[nodiscard]] Eigen::Matrix3d slip_covariance(const ArcStep& step, const OdometryNoise& noise,
+                                              ArcModel model);
+
 /// The same arc if it turned so much more.
 [[nodiscard]] Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model);
 

@@ -220,7 +220,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
   return {to_seconds(smoothed.cpu),
           smoothed.iterations,
           smoothed.converged,
-          smoothed.poses,
+          smoothed.steps.size(),
           smoothed.sightings,
           smooth::calibrated_keys(smoothed.calibration, config),
           live,

@@ -11,6 +11,7 @@ namespace waymark {
 [[nodiscard]] std::string_view consistency_page();
 [[nodiscard]] std::string_view tune_page();
 [[nodiscard]] std::string_view camera_page();
+[[nodiscard]] std::string_view calibration_page();
 
 inline constexpr std::string_view kPageDataMark = "<!-- data -->";
 

@@ -6,6 +6,7 @@
 
 #include "waymark/eval/align.hpp"
 #include "waymark/report/article_times.hpp"
+#include "waymark/report/path_series.hpp"
 #include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
@@ -21,6 +22,7 @@ class Clock {
   explicit Clock(const RunResult& result)
       : start_(result.recording.trajectory.empty() ? Stamp{} : result.recording.trajectory.front().stamp) {}
   [[nodiscard]] double operator()(Stamp stamp) const { return to_seconds(stamp - start_); }
+  [[nodiscard]] Stamp start() const { return start_; }
 
  private:
   Stamp start_;
@@ -46,32 +48,9 @@ Pose2 anchor(const RunResult& result) {
   return result.log.landmarks.empty() ? Pose2{} : anchor_by_landmarks(result);
 }
 
-PathSeries path_of(const Trajectory& trajectory, const Pose2& T_world_run, const Clock& clock) {
-  PathSeries path;
-  for (const auto& point : trajectory) {
-    const Pose2 pose = T_world_run * point.pose;
-    path.t_s.push_back(clock(point.stamp));
-    path.x_m.push_back(pose.x_m);
-    path.y_m.push_back(pose.y_m);
-    path.theta_rad.push_back(pose.theta_rad);
-  }
-  return path;
-}
-
-PathSeries path_of(const eval::TruthTrack& truth, const Clock& clock) {
-  PathSeries path;
-  for (const auto& [stamp, sample] : truth.samples()) {
-    path.t_s.push_back(clock(stamp));
-    path.x_m.push_back(sample.x_m);
-    path.y_m.push_back(sample.y_m);
-    path.theta_rad.push_back(sample.theta_rad.value_or(kUnknown));
-  }
-  return path;
-}
-
 DeadReckoningSeries dead_reckoning_of(const RunResult& result, const Clock& clock) {
   DeadReckoningSeries series;
-  series.path = path_of(result.recording.dead_reckoning, anchor(result), clock);
+  series.path = path_series(result.recording.dead_reckoning, anchor(result), clock.start());
   eval::AssociateOptions options;
   if (result.log.truth_sensor_m) options.truth_sensor_m = *result.log.truth_sensor_m;
   const auto pairs = eval::associate(result.recording.dead_reckoning, result.truth, options);
@@ -174,7 +153,7 @@ ReportData make_report(const RunResult& result, const std::string& command) {
                                 result.metrics.observations);
   report.version = WAYMARK_VERSION;
   report.input = result.input;
-  report.truth = path_of(result.truth, clock);
+  report.truth = path_series(result.truth, {}, clock.start());
   for (const auto& landmark : result.log.landmarks)
     report.truth_landmarks.push_back({to_string(landmark.id), landmark.x_m, landmark.y_m});
   report.dead_reckoning = dead_reckoning_of(result, clock);
@@ -190,8 +169,8 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.filter = result.metrics.filter;
   run.command = command;
   run.config_yaml = describe(config).to_yaml();
-  run.path = path_of(result.recording.trajectory, anchor(result), clock);
-  if (result.smoothed) run.smoothed = path_of(result.smoothed->trajectory, anchor(result), clock);
+  run.path = path_series(result.recording.trajectory, anchor(result), clock.start());
+  if (result.smoothed) run.smoothed = path_series(result.smoothed->trajectory, anchor(result), clock.start());
   run.alignment = alignment_of(result);
   run.landmarks = landmarks_of(result);
   run.errors = errors_of(result, clock);

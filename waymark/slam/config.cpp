@@ -11,12 +11,16 @@ namespace {
 
 constexpr std::string_view kSimulationPrefix = "sim:";
 
+Result<void> apply(Schema& schema, const std::vector<std::string>& assignments, const char* who) {
+  for (const auto& assignment : assignments)
+    if (auto done = schema.set_assignment(assignment, who); !done) return done;
+  return {};
+}
+
 Result<void> apply(Schema& schema, const UserSettings& user) {
   if (user.file)
     if (auto done = schema.load_file(*user.file); !done) return done;
-  for (const auto& assignment : user.assignments)
-    if (auto done = schema.set_assignment(assignment, "--set"); !done) return done;
-  return {};
+  return apply(schema, user.assignments, "--set");
 }
 
 Result<void> apply(Schema& schema, const LogInfo& log) {
@@ -125,6 +129,7 @@ Result<OpenedInput> open_input(const std::string& input, const UserSettings& use
     config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
   Schema schema = describe(config);
   const LogInfo& log = (*source)->info();
+  if (auto done = apply(schema, user.defaults, "defaults"); !done) return done.error();
   if (auto done = apply(schema, log); !done) return done.error();
   if (auto done = apply(schema, user); !done) return done.error();
   if (wants_markers(user))

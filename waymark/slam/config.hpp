@@ -69,6 +69,7 @@ struct Config {
 struct UserSettings {
   std::optional<std::filesystem::path> file;
   std::vector<std::string> assignments;  ///< "key=value"
+  std::vector<std::string> defaults;     ///< the same where neither the log nor the user says anything
 };
 
 /// A log, opened, with the config that holds for it.

@@ -121,6 +121,13 @@ bool Odometer::add(const Event& event) {
   return true;
 }
 
+std::optional<OdometryKind> Odometer::kind() const {
+  if (wheels_now_) return OdometryKind::kWheels;
+  if (pose_now_) return OdometryKind::kPose;
+  if (!held_) return std::nullopt;
+  return std::holds_alternative<Velocity>(*held_) ? OdometryKind::kVelocity : OdometryKind::kSteering;
+}
+
 template class SampledTrack<WheelAngles>;
 template class SampledTrack<Pose2>;
 

@@ -10,6 +10,9 @@
 
 namespace waymark {
 
+/// What odometry is told in.
+enum class OdometryKind { kWheels, kVelocity, kSteering, kPose };
+
 /// Any odometry that this program can turn into motion.
 [[nodiscard]] bool is_odometry(const EventContent& content);
 
@@ -41,6 +44,9 @@ class Odometer {
 
   /// A reading at the stamp that advance() just reached. False: of another kind than the first one.
   bool add(const Event& event);
+
+  /// Of the odometry so far, if there was any.
+  [[nodiscard]] std::optional<OdometryKind> kind() const;
 
   /// Times that odometry was missing for longer than it may be held: the robot was taken to stand still.
   [[nodiscard]] int gaps() const { return gaps_; }

@@ -87,6 +87,7 @@ class Pipeline {
   void finish();
 
   [[nodiscard]] PipelineCounts counts() const;
+  [[nodiscard]] std::optional<OdometryKind> odometry() const { return odometer_.kind(); }
 
  private:
   void insert(Event event);

@@ -211,6 +211,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
+  recording.odometry = pipeline.odometry();
   recording.blocks = blocks_of(*recording.filter, front_ends);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();

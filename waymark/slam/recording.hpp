@@ -43,9 +43,10 @@ struct Recording {
   FilmStrip film;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
-  vision::TrackerCounts tracker;       ///< of what looks into pictures
-  std::vector<std::string> notes;      ///< what was skipped or odd, one line each
-  std::vector<LandmarkPatch> patches;  ///< what landmarks and candidates look like at the end
+  std::optional<OdometryKind> odometry;  ///< what it is told in, if there is any
+  vision::TrackerCounts tracker;         ///< of what looks into pictures
+  std::vector<std::string> notes;        ///< what was skipped or odd, one line each
+  std::vector<LandmarkPatch> patches;    ///< what landmarks and candidates look like at the end
   Duration wall{0};
   std::unique_ptr<Filter> filter;  ///< as the last event left it
   std::optional<Error> error;      ///< why reading stopped before the end; everything above holds up to there

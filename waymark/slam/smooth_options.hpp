@@ -12,9 +12,14 @@ struct SmoothOptions {
   double robust_dof = 4.0;  ///< of the Student-t distribution of all errors
   int most_iterations = 50;
   bool odometry_is_commanded = false;  ///< the robot strays from its odometry, and not this from the robot
+  double least_leg_m = 0.0;            ///< between poses that are estimated,
+  double least_leg_deg = 0.0;          ///< or at least this much turning
   double speed_scale_sigma = 0.05;
   double turn_scale_sigma = 0.05;
   double turn_bias_sigma_degps = 0.1;
+  double turn_per_m_sigma_deg = 0.0;
+  double mount_sigma_m = 0.0;
+  double mount_yaw_sigma_deg = 0.0;
 };
 
 /// Keys smooth.*.

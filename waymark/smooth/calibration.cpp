@@ -1,22 +1,35 @@
 #include "waymark/smooth/calibration.hpp"
 
+#include <cmath>
+
+#include "waymark/models/odometry.hpp"
 #include "waymark/models/odometry_errors.hpp"
 
 namespace waymark::smooth {
 
 Calibration calibration_sigmas(const SmoothOptions& options, const SensorErrors& errors, Observe observe) {
   Calibration sigmas;
-  sigmas << (tells_size(observe, errors) ? options.speed_scale_sigma : 0.0), options.turn_scale_sigma,
-      to_radians(options.turn_bias_sigma_degps), errors.shared_range_sigma_ratio, errors.shared_range_sigma_m,
-      to_radians(errors.shared_bearing_sigma_deg);
+  sigmas[kSpeedScale] = tells_size(observe, errors) ? options.speed_scale_sigma : 0.0;
+  sigmas[kTurnScale] = options.turn_scale_sigma;
+  sigmas[kTurnBias] = to_radians(options.turn_bias_sigma_degps);
+  sigmas[kTurnPerMetre] = to_radians(options.turn_per_m_sigma_deg);
+  sigmas[kRangeScale] = errors.shared_range_sigma_ratio;
+  sigmas[kRangeOffset] = errors.shared_range_sigma_m;
+  sigmas[kBearingOffset] =
+      to_radians(std::hypot(errors.shared_bearing_sigma_deg, options.mount_yaw_sigma_deg));
+  sigmas[kMountX] = sigmas[kMountY] = options.mount_sigma_m;
   return sigmas;
 }
 
 CalibratedMotion calibrate(const Pose2& increment, double dt_s, const Calibration& c) {
-  static_assert(kSpeedScale == 0 && kTurnScale == 1 && kTurnBias == 2);
-  const CorrectedIncrement step = corrected(increment, dt_s, c.head<3>());
+  const double arc_m = arc_length_m(increment, ArcModel::kExact);
+  const double missing_rad = c[kTurnBias] * dt_s + c[kTurnPerMetre] * arc_m;
+  const CorrectedIncrement step = corrected(increment, 1.0, {c[kSpeedScale], c[kTurnScale], missing_rad});
   CalibratedMotion motion{step.increment};
-  motion.J.leftCols<3>() = step.J;
+  motion.J.col(kSpeedScale) = step.J.col(0);
+  motion.J.col(kTurnScale) = step.J.col(1);
+  motion.J.col(kTurnBias) = dt_s * step.J.col(2);
+  motion.J.col(kTurnPerMetre) = arc_m * step.J.col(2);
   return motion;
 }
 

@@ -24,15 +24,26 @@ std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate, 
       to_degrees(1.0));
   add("sensor.range_scale", kRangeScale, sensor.range_scale, sensor.range_scale);
   add("sensor.range_offset_m", kRangeOffset, sensor.range_offset_m, sensor.range_scale);
-  add("sensor.yaw_deg", kBearingOffset, sensor.yaw_deg, to_degrees(-1.0));
+  // The mount of a camera that finds markers is what decides where the sensor is.
+  const bool is_camera = config.observe == Observe::kMarkers;
+  add(is_camera ? "camera.mount_x_m" : "sensor.x_m", kMountX, sensor.x_m, 1.0);
+  add(is_camera ? "camera.mount_y_m" : "sensor.y_m", kMountY, sensor.y_m, 1.0);
+  add(is_camera ? "camera.mount_yaw_deg" : "sensor.yaw_deg", kBearingOffset, sensor.yaw_deg,
+      to_degrees(-1.0));
   return keys;
 }
 
-std::string calibration_yaml(const CalibrationEstimate& estimate, const Config& config) {
+std::string calibration_yaml(std::span<const CalibratedKey> keys) {
   std::string yaml = "# What the log says about the sensors; for --config.\n";
-  for (const auto& [key, value, sigma, is_untold] : calibrated_keys(estimate, config))
-    yaml += fmt::format("{}: {:.6g}  # +- {:.2g}{}\n", key, value, sigma,
-                        is_untold ? ", as assumed: the log says nothing of it" : "");
+  for (const auto& [key, value, sigma, is_untold] : keys)
+    yaml +=
+        fmt::format("{}: {:.6g}{}{}\n", key, value, sigma > 0.0 ? fmt::format("  # +- {:.2g}", sigma) : "",
+                    is_untold ? ", as assumed: the log says nothing of it" : "");
+  return yaml;
+}
+
+std::string calibration_yaml(const CalibrationEstimate& estimate, const Config& config) {
+  std::string yaml = calibration_yaml(calibrated_keys(estimate, config));
   const OdometryOptions& odometry = config.odometry;
   if (const double track_m = odometry.wheels.track_m; estimate.is_estimated(kTurnScale) && track_m > 0.0) {
     const double speed_scale = odometry.speed_scale * (1.0 + estimate.mean[kSpeedScale]);

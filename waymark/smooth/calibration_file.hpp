@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace waymark::smooth {
 struct CalibratedKey {
   std::string key;
   double value = 0.0;
-  double sigma = 0.0;
+  double sigma = 0.0;      ///< 0: goes with the others
   bool is_untold = false;  ///< the value is what was assumed
 };
 
@@ -20,7 +21,10 @@ struct CalibratedKey {
 [[nodiscard]] std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate,
                                                          const Config& config);
 
-/// The same as a config file.
+/// Keys as a config file.
+[[nodiscard]] std::string calibration_yaml(std::span<const CalibratedKey> keys);
+
+/// What is known as a config file; of wheels, what their track would be.
 [[nodiscard]] std::string calibration_yaml(const CalibrationEstimate& estimate, const Config& config);
 
 }  // namespace waymark::smooth

@@ -1,11 +1,17 @@
 #include "waymark/smooth/factors.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark::smooth {
 namespace {
+
+Pose2 moved_mount(const Pose2& T_robot_sensor, const Calibration& c) {
+  return {T_robot_sensor.x_m + c[kMountX], T_robot_sensor.y_m + c[kMountY], T_robot_sensor.theta_rad};
+}
 
 /// Predicted range and bearing of a calibrated sensor, less what was measured of them.
 struct Predicted {
@@ -17,7 +23,7 @@ struct Predicted {
 Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                   const Eigen::Vector2d& p_world, const Calibration& c) {
   Predicted predicted;
-  predicted.model = RangeBearingModel::linearize(T_world_robot, T_robot_sensor, p_world);
+  predicted.model = RangeBearingModel::linearize(T_world_robot, moved_mount(T_robot_sensor, c), p_world);
   const double distance_m = predicted.model.predicted[0];
   const double scale = 1.0 + c[kRangeScale];
   predicted.residual = {scale * distance_m + c[kRangeOffset] - measured[0],
@@ -28,6 +34,9 @@ Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, c
   predicted.J_calibration(0, kRangeScale) = distance_m;
   predicted.J_calibration(0, kRangeOffset) = 1.0;
   predicted.J_calibration(1, kBearingOffset) = 1.0;
+  // A sensor that moves ahead sees what a landmark that comes nearer shows.
+  static_assert(kMountY == kMountX + 1);
+  predicted.J_calibration.middleCols<2>(kMountX) = -predicted.model.H_landmark * T_world_robot.rotation();
   return predicted;
 }
 
@@ -66,23 +75,26 @@ LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
   return factor;
 }
 
-LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration) {
-  const double longer = 1.0 + calibration[kSpeedScale];
-  const double turning_more = 1.0 + calibration[kTurnScale];
-  const Eigen::Vector3d unit(1.0 / longer, 1.0 / longer, 1.0 / turning_more);
-  factor.residual = unit.asDiagonal() * factor.residual;
-  factor.J_before = unit.asDiagonal() * factor.J_before;
-  factor.J_after = unit.asDiagonal() * factor.J_after;
-  factor.J_calibration = unit.asDiagonal() * factor.J_calibration;
-  factor.J_calibration.col(kSpeedScale).head<2>() -= factor.residual.head<2>() / longer;
-  factor.J_calibration(2, kTurnScale) -= factor.residual[2] / turning_more;
+LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
+                      const Calibration& calibration) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const CalibrationIndex which = i == 2 ? kTurnScale : kSpeedScale;
+    const double scale = 1.0 + calibration[which];
+    const double variance = 1.0 + measured_part[i] * (scale * scale - 1.0);
+    const double unit = 1.0 / std::sqrt(variance);
+    factor.residual[i] *= unit;
+    factor.J_before.row(i) *= unit;
+    factor.J_after.row(i) *= unit;
+    factor.J_calibration.row(i) *= unit;
+    factor.J_calibration(i, which) -= measured_part[i] * scale / variance * factor.residual[i];
+  }
   return factor;
 }
 
 SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
                                   const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
                                   const Calibration& calibration) {
-  const Pose2 T_world_sensor = T_world_robot * T_robot_sensor;
+  const Pose2 T_world_sensor = T_world_robot * moved_mount(T_robot_sensor, calibration);
   if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
   const auto predicted = [&](double range_m, double bearing_rad) {
     return predict({range_m, bearing_rad}, T_world_robot, T_robot_sensor, p_world, calibration);

@@ -17,9 +17,11 @@ struct LegFactor {
 [[nodiscard]] LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
                                       const CalibratedMotion& measured);
 
-/// The same in the units that the odometry counts in. Where these measurements are what errs, a residual of
-/// what a calibration makes of them shrinks with its scales, and by it the scales would be found too small.
-[[nodiscard]] LegFactor in_units_of_odometry(LegFactor factor, const Calibration& calibration);
+/// The same in units of its standard deviations as they are by a calibration over what they are without one.
+/// Errors of the measurement grow with the scales, and a robot that strays does not: were that forgotten,
+/// scales would be found too small in the first case and too large in the second (Deming 1943).
+[[nodiscard]] LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
+                                    const Calibration& calibration);
 
 /// Residual = predicted - measured of a sighting and its Jacobians, in units of its standard deviations. Of
 /// sightings with one number the second row is zero.

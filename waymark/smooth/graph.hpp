@@ -20,6 +20,9 @@ struct OdometryStep {
 struct Leg {
   std::vector<OdometryStep> steps;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// Of its variances in x, y and theta what is errors of the measurement, and not a robot that strays from
+  /// what was measured or commanded.
+  Eigen::Vector3d measured_part = Eigen::Vector3d::Ones();
 };
 
 /// One sighting of a landmark; its covariance in the layout of Observation::covariance.
@@ -42,8 +45,8 @@ struct Graph {
   Pose2 T_robot_sensor;
   std::vector<Leg> legs;
   std::vector<Sighting> sightings;
-  Calibration calibration_sigmas = Calibration::Zero();  ///< before the log; 0: is not estimated
-  bool odometry_is_commanded = false;  ///< a robot strays from commands; measurements stray from a robot
+  Calibration calibration_mean = Calibration::Zero();    ///< what it is taken to be before the log
+  Calibration calibration_sigmas = Calibration::Zero();  ///< how surely; 0: is not estimated
   /// How far, as a standard deviation, landmarks may be from where they start: what few bearings or ranges do
   /// not fix would go far.
   double landmark_sigma_m = 1e3;

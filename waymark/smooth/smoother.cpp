@@ -1,5 +1,6 @@
 #include "waymark/smooth/smoother.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -13,7 +14,9 @@ namespace {
 /// Takes the steps of the odometry together to legs between the poses at which something was seen.
 class LegBuilder {
  public:
-  LegBuilder(const Recording& recording, RunGraph& run) : recording_(recording), run_(run) {
+  LegBuilder(const Recording& recording, const Config& config, const std::vector<std::size_t>& steps,
+             RunGraph& run)
+      : recording_(recording), config_(config), steps_(steps), run_(run) {
     run_.steps.push_back(0);
     run_.start.poses.push_back(recording.trajectory.front().pose);
   }
@@ -25,25 +28,56 @@ class LegBuilder {
     const Duration dt = recording_.trajectory[step].stamp - recording_.trajectory[step - 1].stamp;
     leg_.steps.push_back({motion.increment, to_seconds(dt)});
     motion_ = compose(motion_, motion);
+    slip_ = compose(slip_, {motion.increment, slip_of(motion.increment)});
   }
 
-  /// The pose at the present step: a new one if the robot moved since the last.
-  [[nodiscard]] int pose_at(std::size_t step) {
-    if (!leg_.steps.empty()) {
-      leg_.covariance = motion_.covariance;
-      run_.graph.legs.push_back(std::exchange(leg_, {}));
-      motion_ = {};
-      run_.steps.push_back(step);
-      run_.start.poses.push_back(recording_.trajectory[step].pose);
-    }
+  /// The pose at the present step: a new one if the robot moved since the last; nothing if it did, and not
+  /// far enough.
+  [[nodiscard]] std::optional<int> pose_at(std::size_t step) {
+    if (!leg_.steps.empty() && !is_far(step)) return std::nullopt;
+    if (!leg_.steps.empty()) add_pose(step);
     return static_cast<int>(run_.steps.size()) - 1;
   }
 
  private:
+  [[nodiscard]] bool is_far(std::size_t step) const {
+    if (!steps_.empty()) return std::ranges::binary_search(steps_, step);
+    return motion_.increment.position().norm() >= config_.smooth.least_leg_m ||
+           std::abs(motion_.increment.theta_rad) >= to_radians(config_.smooth.least_leg_deg);
+  }
+
+  void add_pose(std::size_t step) {
+    leg_.covariance = motion_.covariance;
+    leg_.measured_part = measured_part();
+    run_.graph.legs.push_back(std::exchange(leg_, {}));
+    motion_ = slip_ = {};
+    run_.steps.push_back(step);
+    run_.start.poses.push_back(recording_.trajectory[step].pose);
+  }
+
+  [[nodiscard]] Eigen::Matrix3d slip_of(const Pose2& increment) const {
+    const ArcModel arc = config_.odometry.arc;
+    return slip_covariance({arc_length_m(increment, arc), increment.theta_rad}, config_.odometry.noise, arc);
+  }
+
+  /// Of wheels and cars the noise says which errors are whose; of other odometry all of it was measured.
+  [[nodiscard]] Eigen::Vector3d measured_part() const {
+    if (config_.smooth.odometry_is_commanded) return Eigen::Vector3d::Zero();
+    const bool knows_wheels =
+        recording_.odometry == OdometryKind::kWheels || recording_.odometry == OdometryKind::kSteering;
+    if (!knows_wheels) return Eigen::Vector3d::Ones();
+    constexpr double kLeast = 1e-20;  // a leg that is exact in some direction has no part to speak of
+    const Eigen::Array3d all = motion_.covariance.diagonal().array() + kLeast;
+    return (1.0 - slip_.covariance.diagonal().array() / all).max(0.0);
+  }
+
   const Recording& recording_;
+  const Config& config_;
+  const std::vector<std::size_t>& steps_;
   RunGraph& run_;
   Leg leg_;
   Motion motion_;
+  Motion slip_;  // what the robot does beside what is measured
 };
 
 bool has_landmark(Outcome outcome) {
@@ -159,34 +193,36 @@ std::vector<LandmarkEstimate> map_of(const RunGraph& run, const Solution& soluti
 
 }  // namespace
 
-RunGraph graph_of(const Recording& recording, const Config& config) {
+RunGraph graph_of(const Recording& recording, const Config& config, const Before& before) {
   RunGraph run;
   run.graph.T_robot_sensor = config.sensor.T_robot_sensor();
-  run.graph.odometry_is_commanded = config.smooth.odometry_is_commanded;
   run.graph.landmark_sigma_m = config.sensor.max_range_m;
+  run.graph.calibration_mean = before.calibration;
   run.graph.calibration_sigmas = calibration_sigmas(config.smooth, config.sensor.errors, config.observe);
   const std::map<LandmarkId, int> index = add_landmarks(recording, run);
-  LegBuilder legs(recording, run);
+  LegBuilder legs(recording, config, before.steps, run);
   auto sighting = recording.sightings.begin();
   for (std::size_t step = 0; step < recording.trajectory.size(); ++step) {
     if (step > 0) legs.advance(step);
     for (; sighting != recording.sightings.end() && sighting->step == step; ++sighting) {
       const auto landmark = index.find(sighting->landmark);
       if (landmark == index.end() || !has_landmark(sighting->outcome)) continue;
+      const auto pose = legs.pose_at(step);
+      if (!pose) continue;
       ++run.observations[static_cast<std::size_t>(landmark->second)];
-      run.graph.sightings.push_back({legs.pose_at(step), landmark->second, sighting->observation.value,
+      run.graph.sightings.push_back({*pose, landmark->second, sighting->observation.value,
                                      white_covariance(sighting->observation, config.sensor)});
     }
   }
   return run;
 }
 
-Result<Smoothed> smooth(const Recording& recording, const Config& config) {
+Result<Smoothed> smooth(const Recording& recording, const Config& config, const Before& before) {
   if (config.observe == Observe::kPixel) return Error{"smooth.run: takes range, bearing or both; not pixels"};
   if (recording.motions.size() != recording.trajectory.size() || recording.trajectory.empty())
     return Error{"smooth.run: the run has kept nothing to smooth"};
   const Duration start = thread_cpu_time();
-  const RunGraph run = graph_of(recording, config);
+  RunGraph run = graph_of(recording, config, before);
   SolveOptions options;
   options.robust_dof = config.smooth.robust_dof;
   options.most_iterations = config.smooth.most_iterations;
@@ -196,10 +232,13 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config) {
   smoothed.landmarks = map_of(run, solution);
   smoothed.calibration = {solution.estimate.calibration, solution.calibration_sigmas,
                           run.graph.calibration_sigmas};
+  smoothed.calibration_covariance = solution.calibration_covariance;
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
-  smoothed.poses = run.steps.size();
+  smoothed.steps = std::move(run.steps);
   smoothed.sightings = run.graph.sightings.size();
+  for (std::size_t i = 0; i < solution.remainders.size(); ++i)
+    smoothed.remainders.push_back({run.graph.sightings[i].value, solution.remainders[i]});
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
 }

@@ -11,15 +11,23 @@
 
 namespace waymark::smooth {
 
+/// A sighting of a landmark of the map, and what is left over of it.
+struct SmoothedSighting {
+  Measurement measured;
+  Remainder remainder;
+};
+
 /// What a whole log says, each pose by what came before and after it.
 struct Smoothed {
   Trajectory trajectory;  ///< a point for each of the run's; covariances given the first
   std::vector<LandmarkEstimate> landmarks;
   CalibrationEstimate calibration;
+  CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
   int iterations = 0;
   bool converged = false;
-  std::size_t poses = 0;      ///< that were estimated: those at which something was seen
-  std::size_t sightings = 0;  ///< of landmarks of the map
+  std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
+  std::size_t sightings = 0;       ///< of landmarks of the map
+  std::vector<SmoothedSighting> remainders;  ///< of these; empty where there were too many for covariances
   Duration cpu{0};
 };
 
@@ -33,10 +41,17 @@ struct RunGraph {
   std::vector<int> observations;   ///< of each landmark
 };
 
-[[nodiscard]] RunGraph graph_of(const Recording& recording, const Config& config);
+/// What another smoothing of the same log leaves to this one.
+struct Before {
+  Calibration calibration = Calibration::Zero();  ///< what deviations from the config are taken to be
+  std::vector<std::size_t> steps;  ///< whose poses are estimated; empty: as smooth.least_leg_* says
+};
+
+[[nodiscard]] RunGraph graph_of(const Recording& recording, const Config& config, const Before& before = {});
 
 /// Estimates path, map and calibration of a run that kept what that needs (smooth.run) from the whole log.
 /// The error says what the run lacks.
-[[nodiscard]] Result<Smoothed> smooth(const Recording& recording, const Config& config);
+[[nodiscard]] Result<Smoothed> smooth(const Recording& recording, const Config& config,
+                                      const Before& before = {});
 
 }  // namespace waymark::smooth

@@ -14,6 +14,7 @@ namespace {
 // Odometry that claims to be better than this in some direction is not.
 constexpr double kLeastLegSigma_m = 1e-4;
 constexpr double kLeastLegSigma_rad = 1e-5;
+constexpr double kAnyWeight = 1e9;
 
 /// Student-t: the cost of a squared error, and its weight.
 struct Robust {
@@ -155,7 +156,7 @@ class Solver {
   /// Goes one step down; false: there is no way down that is worth it.
   bool step(double& cost_now) {
     constexpr double kMostDamping = 1e8;
-    constexpr double kWorthIt = 1e-5;
+    constexpr double kWorthIt = 1e-7;
     const NormalEquations equations = linearize();
     const SparseMatrix H = equations.H();
     for (; damping_ < kMostDamping; damping_ *= 10.0) {
@@ -180,15 +181,17 @@ class Solver {
     return factor_.info() == Eigen::Success && (factor_.vectorD().array() > 0.0).all();
   }
 
-  [[nodiscard]] NormalEquations linearize() const {
+  /// `most_weight`: what a measurement counts at most, in measurements with the stated noise.
+  [[nodiscard]] NormalEquations linearize(double most_weight = kAnyWeight) const {
     NormalEquations equations(layout_);
-    for (std::size_t i = 0; i < graph_.legs.size(); ++i) add_leg(i, equations);
-    for (const Sighting& sighting : graph_.sightings) add_sighting(sighting, equations);
+    for (std::size_t i = 0; i < graph_.legs.size(); ++i) add_leg(i, most_weight, equations);
+    for (const Sighting& sighting : graph_.sightings) add_sighting(sighting, most_weight, equations);
     for (std::size_t i = 0; i < landmarks_before_.size(); ++i) add_prior(i, equations);
     for (std::size_t i = 0; i < layout_.estimated().size(); ++i) {
       const Eigen::Index which = layout_.estimated()[i];
       const double sigma = graph_.calibration_sigmas[which];
-      equations.add_prior(layout_.calibration() + static_cast<Eigen::Index>(i), estimate_.calibration[which],
+      equations.add_prior(layout_.calibration() + static_cast<Eigen::Index>(i),
+                          estimate_.calibration[which] - graph_.calibration_mean[which],
                           1.0 / (sigma * sigma));
     }
     return equations;
@@ -201,21 +204,21 @@ class Solver {
       equations.add_prior(layout_.landmark(landmark) + axis, away_m[axis], information);
   }
 
-  void add_leg(std::size_t i, NormalEquations& equations) const {
+  void add_leg(std::size_t i, double most_weight, NormalEquations& equations) const {
     const LegFactor f = factor_of_leg(estimate_, i);
     const Eigen::Matrix3d& information = leg_information_[i];
-    const double weight = robust_.weight(f.residual.dot(information * f.residual), 3);
+    const double weight = std::min(most_weight, robust_.weight(f.residual.dot(information * f.residual), 3));
     const Eigen::Matrix3d U = information.llt().matrixU();
     equations.add(weight, (U * f.residual).eval(), block(Layout::pose(i), (U * f.J_before).eval()),
                   block(Layout::pose(i + 1), (U * f.J_after).eval()),
                   equations.calibration((U * f.J_calibration).eval()));
   }
 
-  void add_sighting(const Sighting& sighting, NormalEquations& equations) const {
+  void add_sighting(const Sighting& sighting, double most_weight, NormalEquations& equations) const {
     const SightingFactor f = factor_of(estimate_, sighting);
     if (f.dof == 0) return;
-    equations.add(robust_.weight(f.residual.squaredNorm(), f.dof), f.residual,
-                  block(Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose),
+    const double weight = std::min(most_weight, robust_.weight(f.residual.squaredNorm(), f.dof));
+    equations.add(weight, f.residual, block(Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose),
                   block(layout_.landmark(static_cast<std::size_t>(sighting.landmark)), f.J_landmark),
                   equations.calibration(f.J_calibration));
   }
@@ -223,7 +226,7 @@ class Solver {
   [[nodiscard]] LegFactor factor_of_leg(const Estimate& at, std::size_t i) const {
     const LegFactor factor =
         linearize_leg(at.poses[i], at.poses[i + 1], motion_of(graph_.legs[i], at.calibration));
-    return graph_.odometry_is_commanded ? factor : in_units_of_odometry(factor, at.calibration);
+    return by_who_errs(factor, graph_.legs[i].measured_part, at.calibration);
   }
 
   [[nodiscard]] SightingFactor factor_of(const Estimate& at, const Sighting& sighting) const {
@@ -246,7 +249,7 @@ class Solver {
       sum += (at.landmarks[i] - landmarks_before_[i]).squaredNorm() /
              (graph_.landmark_sigma_m * graph_.landmark_sigma_m);
     for (const Eigen::Index i : layout_.estimated())
-      sum += std::pow(at.calibration[i] / graph_.calibration_sigmas[i], 2);
+      sum += std::pow((at.calibration[i] - graph_.calibration_mean[i]) / graph_.calibration_sigmas[i], 2);
     return sum;
   }
 
@@ -264,7 +267,9 @@ class Solver {
   }
 
   void add_covariances(Solution& solution) {
-    if (layout_.size() == 0 || !factorize(linearize().H(), 0.0)) return;
+    // Small errors have weights above 1 and yet tell no more than what has the stated noise.
+    if (layout_.size() == 0 || !factorize(linearize(1.0).H(), 0.0)) return;
+    add_calibration_covariance(solution);
     const auto P = SelectedInverse::compute(factor_, options_.most_covariance_work);
     if (!P) return;
     solution.pose_covariances.emplace_back(Eigen::Matrix3d::Zero());
@@ -272,9 +277,44 @@ class Solver {
       solution.pose_covariances.push_back(marginal<3>(*P, Layout::pose(i)));
     for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
-    for (std::size_t i = 0; i < layout_.estimated().size(); ++i)
-      solution.calibration_sigmas[layout_.estimated()[i]] =
-          std::sqrt(marginal<1>(*P, layout_.calibration() + static_cast<Eigen::Index>(i))(0));
+    for (const Sighting& sighting : graph_.sightings)
+      solution.remainders.push_back(remainder_of(sighting, *P));
+  }
+
+  /// All variables that a sighting depends on are joined in the pattern of the inverse.
+  [[nodiscard]] Remainder remainder_of(const Sighting& sighting, const SelectedInverse& P) const {
+    const SightingFactor f = factor_of(estimate_, sighting);
+    const Eigen::Index calibrated = std::ssize(layout_.estimated());
+    Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + calibrated);
+    J << f.J_pose, f.J_landmark, f.J_calibration(Eigen::all, layout_.estimated());
+    std::vector<Eigen::Index> at;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      at.push_back(Layout::pose(static_cast<std::size_t>(sighting.pose)) + i);
+    for (Eigen::Index i = 0; i < 2; ++i)
+      at.push_back(layout_.landmark(static_cast<std::size_t>(sighting.landmark)) + i);
+    for (Eigen::Index i = 0; i < calibrated; ++i) at.push_back(layout_.calibration() + i);
+    Eigen::Matrix2d followed = Eigen::Matrix2d::Zero();
+    for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t j = 0; j < at.size(); ++j)
+        if (at[i] >= 0 && at[j] >= 0)
+          followed += J.col(static_cast<Eigen::Index>(i)) * P(at[i], at[j]) *
+                      J.col(static_cast<Eigen::Index>(j)).transpose();
+    const Eigen::Matrix2d root = sighting.covariance.llt().matrixL();
+    if (f.dof < 2)
+      return {std::sqrt(sighting.covariance(0, 0)) * f.residual,
+              sighting.covariance(0, 0) * followed.diagonal()};
+    return {root * f.residual, (root * followed * root.transpose()).diagonal()};
+  }
+
+  /// Its columns are cheap, however large the rest is.
+  void add_calibration_covariance(Solution& solution) const {
+    const std::vector<Eigen::Index>& estimated = layout_.estimated();
+    for (std::size_t i = 0; i < estimated.size(); ++i) {
+      const Eigen::Index column = layout_.calibration() + static_cast<Eigen::Index>(i);
+      const Eigen::VectorXd P = factor_.solve(Eigen::VectorXd::Unit(layout_.size(), column));
+      solution.calibration_covariance(estimated, estimated[i]) = P.tail(std::ssize(estimated));
+    }
+    solution.calibration_sigmas = solution.calibration_covariance.diagonal().cwiseSqrt();
   }
 
   template <int Size>

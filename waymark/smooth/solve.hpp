@@ -13,6 +13,13 @@ struct SolveOptions {
   double most_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
 };
 
+/// What is left over of a sighting, range and bearing (or its one number), predicted - measured, and how much
+/// of its variance the estimate followed: the noise of the measurement is what both make up together.
+struct Remainder {
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  Eigen::Vector2d followed = Eigen::Vector2d::Zero();  ///< diagonal of H P H^T
+};
+
 /// The best estimate, how it was found, and how sure it is.
 struct Solution {
   Estimate estimate;
@@ -20,11 +27,12 @@ struct Solution {
   bool converged = false;
   double cost_before = 0.0;  ///< minus twice the logarithm of the likelihood, but for a constant
   double cost = 0.0;
-  /// Of each pose given the first, of each landmark and of what is calibrated; empty where that would have
-  /// taken too long.
+  /// Of each pose given the first and of each landmark; empty where that would have taken too long.
   std::vector<Eigen::Matrix3d> pose_covariances;
   std::vector<Eigen::Matrix2d> landmark_covariances;
+  std::vector<Remainder> remainders;  ///< of each sighting; empty with the covariances
   Calibration calibration_sigmas = Calibration::Zero();
+  CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
 };
 
 /// Poses, landmarks and calibration by which all that the log says is likeliest (Dellaert and Kaess
