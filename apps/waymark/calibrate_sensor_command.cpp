@@ -4,6 +4,7 @@
 
 #include "waymark/io/files.hpp"
 #include "waymark/report/sensor_noise_report.hpp"
+#include "waymark/report/static_study_report.hpp"
 
 #include "calibrate_commands.hpp"
 
@@ -12,45 +13,77 @@ namespace {
 
 struct Request {
   std::string input;
+  std::string places;
   std::string output = "waymark-calibration";
   SettingsFlags flags;
   Verbosity verbosity;
 };
 
+/// Of a robot that moves among landmarks.
+Result<calibrate::SensorNoise> from_log(const Request& request) {
+  ProgressBar bar("run after run", request.verbosity);
+  return calibrate::calibrate_noise(request.input, request.flags.settings(), [&bar](double fraction) {
+    bar.show(fraction);
+    return !interrupted();
+  });
+}
+
+/// Of a sensor before landmarks at known places.
+Result<calibrate::StaticStudy> from_places(const Request& request) {
+  const auto places = calibrate::read_places(request.places);
+  if (!places) return places.error();
+  ProgressBar bar("recordings", request.verbosity);
+  return calibrate::study_places(*places, request.flags.settings(), [&bar](double fraction) {
+    bar.show(fraction);
+    return !interrupted();
+  });
+}
+
+/// Writes and says what was found.
+template <class Findings>
+Result<void> deliver(const Result<Findings>& findings, const Request& request) {
+  if (!findings) return findings.error();
+  if (auto written = write_results(*findings, request.output); !written) return written;
+  if (request.verbosity.json) fmt::print("{}", to_json(*findings));
+  if (request.verbosity.talks())
+    fmt::print("{0}config: {1}/calibration.yaml\n", to_text(*findings), request.output);
+  return {};
+}
+
 Result<void> calibrate_sensor(const Request& request) {
+  if (request.input.empty() == request.places.empty())
+    return Error{
+        "calibrate sensor: give a log of a robot that moves, or --places FILE with recordings at known "
+        "places"};
   if (auto made = ensure_output_folder(request.output); !made) return made;
   catch_interrupts();
-  const auto noise = [&request] {
-    ProgressBar bar("run after run", request.verbosity);
-    return calibrate::calibrate_noise(request.input, request.flags.settings(), [&bar](double fraction) {
-      bar.show(fraction);
-      return !interrupted();
-    });
-  }();
-  if (!noise) return noise.error();
-  if (auto written = write_results(*noise, request.output); !written) return written;
-  if (request.verbosity.json) fmt::print("{}", to_json(*noise));
-  if (!request.verbosity.talks()) return {};
-  fmt::print("{0}config: {1}/calibration.yaml\n", to_text(*noise), request.output);
-  return {};
+  return request.places.empty() ? deliver(from_log(request), request)
+                                : deliver(from_places(request), request);
 }
 
 }  // namespace
 
 void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
   auto* command = calibrate.add_subcommand(
-      "sensor", "Noise of a landmark sensor or camera on a robot that moves among landmarks");
+      "sensor",
+      "How a landmark sensor or camera errs: on a robot that moves, or before landmarks at known places");
   const auto request = std::make_shared<Request>();
+  command->add_option("input", request->input,
+                      "a log folder, a ROS bag, a published data set, or sim:SCENARIO");
   command
-      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
-      ->required();
+      ->add_option(
+          "--places", request->places,
+          "instead of a log: a table log,range_m,bearing_deg of recordings of a landmark at known places")
+      ->type_name("FILE.csv");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-calibration)")
       ->type_name("OUT");
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
   command->footer(
-      "Example:\n"
-      "  waymark calibrate sensor LOG -o out && waymark run LOG --config out/calibration.yaml\n\n"
+      "Examples:\n"
+      "  waymark calibrate sensor LOG -o out && waymark run LOG --config out/calibration.yaml\n"
+      "  waymark calibrate sensor --places places.csv -o out     # biases, noise, limits of range and "
+      "view\n\n"
       "Calibrate odometry and mount first: what is wrong with them would count as noise. Writes "
       "calibration.yaml "
       "(for --config) and calibration.json.");

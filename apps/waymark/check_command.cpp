@@ -57,8 +57,9 @@ struct Contents {
 };
 
 const char* name_of(const EventContent& content) {
-  static constexpr std::array kNames{"wheel angles", "velocity",     "steering",    "odometry poses",
-                                     "images",       "observations", "ground truth"};
+  static constexpr std::array kNames{"wheel angles", "velocity",       "steering",     "odometry poses",
+                                     "images",       "marker corners", "observations", "ground truth"};
+  static_assert(kNames.size() == std::variant_size_v<EventContent>);
   return kNames[content.index()];
 }
 
@@ -151,7 +152,8 @@ std::string advice(const Request& request, const Config& config, const LogInfo& 
                  "odometry.csv)"
                : "nothing can be run: there is no odometry (a topic of type nav_msgs/Odometry, "
                  "sensor_msgs/JointState, geometry_msgs/TwistStamped, Twist or PoseStamped)";
-  if (!has("observations") && !has("images")) return "only dead reckoning: there are no observations";
+  if (!has("observations") && !has("images") && !has("marker corners"))
+    return "only dead reckoning: there are no observations";
   if (log.only_pixels && !config.camera_known)
     return log.topics.empty()
                ? "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like"
@@ -160,6 +162,7 @@ std::string advice(const Request& request, const Config& config, const LogInfo& 
                  "input.camera_file=camera/camera.yaml";
   std::string command = "waymark run " + request.input + " -o out";
   if (log.only_pixels) command += " --observe pixel";
+  if (has("marker corners")) command += " --set markers.size_m=SIDE";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
   return command;
 }

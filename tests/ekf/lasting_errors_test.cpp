@@ -131,8 +131,9 @@ TEST(LastingErrors, ScaleAndOffsetOfRangesAndOffsetOfBearingsAreLearntWithinWhat
     const auto learnt = filter.calibration();
     ASSERT_TRUE(learnt);
     EXPECT_FALSE(learnt->is_estimated(kSpeedScale));
-    const Eigen::Vector3d error = learnt->mean.tail<3>() - Eigen::Vector3d(kScale, kOffset_m, bearing_rad);
-    d2 += error.cwiseQuotient(learnt->sigmas.tail<3>()).cwiseAbs2() / kRuns;
+    const Eigen::Vector3d error =
+        learnt->mean.segment<3>(kRangeScale) - Eigen::Vector3d(kScale, kOffset_m, bearing_rad);
+    d2 += error.cwiseQuotient(learnt->sigmas.segment<3>(kRangeScale)).cwiseAbs2() / kRuns;
     EXPECT_LT(learnt->sigmas[kRangeOffset], 0.1);
   }
   // 99.9 % band of a mean of 30 chi-square variables of one degree of freedom.

@@ -417,6 +417,17 @@ does run log -o calibrated --config c/calibration.yaml
 does calibrate odometry log -o c --json
 does calibrate sensor log -o cs --set sensor.range_sigma_m=0.2
 grep -q '^sensor.range_sigma_m: 0.0[45]' cs/calibration.yaml || fail "calibrate sensor found: $(cat cs/calibration.yaml)"
+refuses 2 'give a log' calibrate sensor
+refuses 2 'give a log' calibrate sensor log --places places.csv
+refuses 2 'places.csv' calibrate sensor --places places.csv
+mkdir static
+printf 'waymark_log: 1\nname: static\n' >static/log.yaml
+printf 'stamp_s,id,range_m,bearing_rad\n0,1,2.04,0.01\n1,1,2.06,0.01\n2,1,2.05,0.01\n' >static/observations.csv
+printf 'log,range_m,bearing_deg\nstatic,2,0\nfar,2,0\n' >places.csv
+refuses 2 'far' calibrate sensor --places places.csv -o cs
+printf 'log,range_m,bearing_deg\nstatic,2,0\nstatic,2,0\n' >places.csv
+does calibrate sensor --places places.csv -o cs
+grep -q '^sensor.range_offset_m: 0.05' cs/calibration.yaml || fail "calibrate sensor found: $(cat cs/calibration.yaml)"
 refuses 2 'no landmark' calibrate sensor sim:square -o cs --set sim.landmarks=0
 does calibrate odometry log -o c --json
 cmp -s out.txt c/calibration.json || fail 'calibrate --json prints something else than calibration.json'

@@ -156,7 +156,7 @@ class Solver {
   /// Goes one step down; false: there is no way down that is worth it.
   bool step(double& cost_now) {
     constexpr double kMostDamping = 1e8;
-    constexpr double kWorthIt = 1e-7;
+    constexpr double kWorthIt = 1e-6;
     const NormalEquations equations = linearize();
     const SparseMatrix H = equations.H();
     for (; damping_ < kMostDamping; damping_ *= 10.0) {

@@ -36,8 +36,8 @@ constexpr std::array kDetectionTypes{
 
 std::optional<std::int32_t> identity_of(double number) {
   constexpr double kLargestId = std::numeric_limits<std::int32_t>::max();
-  if (!(number >= 0.0 && number <= kLargestId)) return std::nullopt;
-  return static_cast<std::int32_t>(number);
+  const bool is_one = number >= 0.0 && number <= kLargestId;
+  return is_one ? std::optional(static_cast<std::int32_t>(number)) : std::nullopt;
 }
 
 class ToObservations {

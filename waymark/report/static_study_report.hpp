@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "waymark/calibrate/static_study.hpp"
+
+namespace waymark {
+
+/// What was found, and what each place showed, as lines for a terminal.
+[[nodiscard]] std::string to_text(const calibrate::StaticStudy& study);
+
+/// The same as JSON.
+[[nodiscard]] std::string to_json(const calibrate::StaticStudy& study);
+
+/// calibration.yaml and calibration.json.
+[[nodiscard]] Result<void> write_results(const calibrate::StaticStudy& study,
+                                         const std::filesystem::path& folder);
+
+}  // namespace waymark
