@@ -43,7 +43,7 @@ Result<calibrate::StaticStudy> from_places(const Request& request) {
 template <class Findings>
 Result<void> deliver(const Result<Findings>& findings, const Request& request) {
   if (!findings) return findings.error();
-  if (auto written = write_results(*findings, request.output); !written) return written;
+  if (auto written = write_results(*findings, request.output, command_line()); !written) return written;
   if (request.verbosity.json) fmt::print("{}", to_json(*findings));
   if (request.verbosity.talks())
     fmt::print("{0}config: {1}/calibration.yaml\n", to_text(*findings), request.output);
@@ -85,8 +85,8 @@ void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
       "  waymark calibrate sensor --places places.csv -o out     # biases, noise, limits of range and "
       "view\n\n"
       "Calibrate odometry and mount first: what is wrong with them would count as noise. Writes "
-      "calibration.yaml "
-      "(for --config) and calibration.json.");
+      "calibration.yaml (for --config), "
+      "calibration.json and report.html.");
   command->callback([&work, request] { work = [request] { return calibrate_sensor(*request); }; });
 }
 

@@ -12,6 +12,7 @@ namespace waymark {
 [[nodiscard]] std::string_view tune_page();
 [[nodiscard]] std::string_view camera_page();
 [[nodiscard]] std::string_view calibration_page();
+[[nodiscard]] std::string_view sensor_page();
 
 inline constexpr std::string_view kPageDataMark = "<!-- data -->";
 

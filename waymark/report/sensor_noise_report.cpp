@@ -5,6 +5,8 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/report/noise_chart.hpp"
+#include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
 
 namespace waymark {
@@ -38,6 +40,25 @@ Json json_of(const std::vector<NoiseBin>& bins, const char* axis, double unit) {
                     {"count", bin.count},
                     {"mean", rounded(unit * bin.mean)},
                     {"sigma", rounded(unit * bin.sigma.value)}});
+  return list;
+}
+
+Json finding(const char* name, double before, const Value& found) {
+  return {{"name", name},
+          {"before", rounded(before)},
+          {"value", rounded(found.value)},
+          {"sigma", rounded(found.sigma)}};
+}
+
+Json findings(const SensorNoise& noise) {
+  Json list = Json::array();
+  const LandmarkSensor& before = noise.before.sensor;
+  if (noise.range) {
+    list.push_back(finding("sensor.range_sigma_m", before.range_sigma_m, noise.range->sigma_m));
+    list.push_back(finding("sensor.range_sigma_ratio", before.range_sigma_ratio, noise.range->sigma_ratio));
+  }
+  if (noise.bearing_sigma_deg)
+    list.push_back(finding("sensor.bearing_sigma_deg", before.bearing_sigma_deg, *noise.bearing_sigma_deg));
   return list;
 }
 
@@ -76,9 +97,25 @@ std::string to_json(const SensorNoise& noise) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Result<void> write_results(const SensorNoise& noise, const std::filesystem::path& folder) {
+std::string render_report(const SensorNoise& noise, const std::string& command) {
+  Json json{{"title", "Noise of a moving sensor"},
+            {"subtitle", fmt::format("From {} alone, in {} runs: what is left over of sightings when path "
+                                     "and map are known by the whole log",
+                                     noise.input, noise.runs)}};
+  json["version"] = WAYMARK_VERSION;
+  json["command"] = command;
+  json["config_yaml"] = to_yaml(noise);
+  json["notes"] = noise.notes;
+  json["found"] = findings(noise);
+  json["charts"] = Json::parse(noise_charts_json(noise.ranges, noise.bearings));
+  return fill_page(sensor_page(), json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Result<void> write_results(const SensorNoise& noise, const std::filesystem::path& folder,
+                           const std::string& command) {
   if (auto done = write_file(folder / "calibration.yaml", to_yaml(noise)); !done) return done;
-  return write_file(folder / "calibration.json", to_json(noise));
+  if (auto done = write_file(folder / "calibration.json", to_json(noise)); !done) return done;
+  return write_file(folder / "report.html", render_report(noise, command));
 }
 
 }  // namespace waymark

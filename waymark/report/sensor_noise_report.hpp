@@ -12,8 +12,11 @@ namespace waymark {
 [[nodiscard]] std::string to_text(const calibrate::SensorNoise& noise);
 [[nodiscard]] std::string to_json(const calibrate::SensorNoise& noise);
 
-/// Writes calibration.yaml and calibration.json into a folder.
+/// The page of it as one HTML file that needs nothing else; `command` is what made it.
+[[nodiscard]] std::string render_report(const calibrate::SensorNoise& noise, const std::string& command);
+
+/// calibration.yaml, calibration.json and report.html.
 [[nodiscard]] Result<void> write_results(const calibrate::SensorNoise& noise,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder, const std::string& command);
 
 }  // namespace waymark

@@ -1,5 +1,6 @@
 #include "waymark/report/static_study_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +8,8 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/report/noise_chart.hpp"
+#include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
 
 namespace waymark {
@@ -51,6 +54,40 @@ void add_limit(Json& limits, const char* key, const std::optional<double>& value
   if (value) limits[key] = rounded(unit * *value);
 }
 
+Json finding(const char* name, const Value& found, double unit = 1.0) {
+  Json json = json_of(found, unit);
+  json["name"] = name;
+  return json;
+}
+
+Json findings(const StaticStudy& study) {
+  Json list = Json::array();
+  if (study.range_scale) list.push_back(finding("range scale", *study.range_scale));
+  list.push_back(finding("range offset, m", study.range_offset_m));
+  list.push_back(finding("bearing offset, deg", study.bearing_offset_rad, to_degrees(1.0)));
+  if (study.range) {
+    list.push_back(finding("sensor.range_sigma_m", study.range->sigma_m));
+    list.push_back(finding("sensor.range_sigma_ratio", study.range->sigma_ratio));
+  }
+  list.push_back(finding("sensor.bearing_sigma_deg", study.bearing_sigma_rad, to_degrees(1.0)));
+  return list;
+}
+
+/// Each place as it was seen.
+std::vector<calibrate::NoiseBin> bins(const StaticStudy& study, bool ranges) {
+  std::vector<calibrate::NoiseBin> list;
+  for (const PlaceStudy& each : study.places) {
+    if (each.sightings < 2) continue;
+    const Eigen::Index i = ranges ? 0 : 1;
+    list.push_back({ranges ? each.place.range_m : each.place.bearing_rad,
+                    each.sightings,
+                    ranges ? each.range_error_m : each.bearing_error_rad,
+                    {std::sqrt(each.covariance(i, i)), 0.0}});
+  }
+  std::ranges::sort(list, {}, &calibrate::NoiseBin::at);
+  return list;
+}
+
 }  // namespace
 
 std::string to_text(const StaticStudy& study) {
@@ -89,9 +126,23 @@ std::string to_json(const StaticStudy& study) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Result<void> write_results(const StaticStudy& study, const std::filesystem::path& folder) {
+std::string render_report(const StaticStudy& study, const std::string& command) {
+  Json json{{"title", "A sensor before landmarks at known places"},
+            {"subtitle", fmt::format("{} recordings", study.places.size())}};
+  json["version"] = WAYMARK_VERSION;
+  json["command"] = command;
+  json["config_yaml"] = to_yaml(study);
+  json["notes"] = study.notes;
+  json["found"] = findings(study);
+  json["charts"] = Json::parse(noise_charts_json(bins(study, true), bins(study, false)));
+  return fill_page(sensor_page(), json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Result<void> write_results(const StaticStudy& study, const std::filesystem::path& folder,
+                           const std::string& command) {
   if (auto done = write_file(folder / "calibration.yaml", to_yaml(study)); !done) return done;
-  return write_file(folder / "calibration.json", to_json(study));
+  if (auto done = write_file(folder / "calibration.json", to_json(study)); !done) return done;
+  return write_file(folder / "report.html", render_report(study, command));
 }
 
 }  // namespace waymark

@@ -13,8 +13,11 @@ namespace waymark {
 /// The same as JSON.
 [[nodiscard]] std::string to_json(const calibrate::StaticStudy& study);
 
-/// calibration.yaml and calibration.json.
+/// The page of it as one HTML file that needs nothing else; `command` is what made it.
+[[nodiscard]] std::string render_report(const calibrate::StaticStudy& study, const std::string& command);
+
+/// calibration.yaml, calibration.json and report.html.
 [[nodiscard]] Result<void> write_results(const calibrate::StaticStudy& study,
-                                         const std::filesystem::path& folder);
+                                         const std::filesystem::path& folder, const std::string& command);
 
 }  // namespace waymark
