@@ -102,12 +102,20 @@ TEST(CameraFit, PartsOfABoardWillDo) {
   EXPECT_NEAR(fit->camera.fu_px, test::true_camera().fu_px, 1e-3);
 }
 
+TEST(CameraFit, TwoViewsJustSolve) {
+  const Board board = test::chessboard();
+  const auto fit =
+      fit_camera(board, test::photograph(board, test::true_camera(), 2, 0.0, 2), kSize, Lens::kFourTerms);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_NEAR(fit->camera.fu_px, test::true_camera().fu_px, 1e-3);
+}
+
 TEST(CameraFit, TooFewViewsAndCornersOnALineAreErrors) {
   const Board board = test::chessboard();
   auto views = test::photograph(board, test::true_camera(), 3, 0.1, 4);
   views[1].resize(9);  // one row
   EXPECT_FALSE(fit_camera(board, views, kSize, Lens::kFourTerms));
-  views.pop_back();
+  views.resize(1);
   const auto fit = fit_camera(board, views, kSize, Lens::kFourTerms);
   ASSERT_FALSE(fit);
   EXPECT_NE(fit.error().message.find("too few"), std::string::npos);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "waymark/calibrate/coverage.hpp"
+#include "waymark/calibrate/folds.hpp"
 #include "waymark/calibrate/weaknesses.hpp"
 #include "waymark/core/angle.hpp"
 
@@ -17,7 +18,6 @@ constexpr double kBlurred_px = 4.0;
 constexpr double kBlurred = 2.0;  // times the median edge
 constexpr double kOutlier = 2.5;  // times the median error
 constexpr double kSignificant = 3.0;
-constexpr std::size_t kMostFolds = 10;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -99,34 +99,29 @@ Result<CameraFit> fit_without_outliers(const Board& board, std::vector<View>& vi
   }
 }
 
-/// Views that follow each other are left out together: they are most alike.
 Result<HeldOut> hold_out(const Board& board, std::vector<View>& views, ImageSize size, Lens lens) {
-  const auto places = used(views);
-  const std::size_t folds = std::min(places.size(), kMostFolds);
-  HeldOut result{.folds = static_cast<int>(folds)};
+  HeldOut result;
   std::vector<Intrinsics> cameras;
   std::vector<FittedView> tests;
-  for (std::size_t fold = 0; fold < folds; ++fold) {
-    const std::size_t from = fold * places.size() / folds, to = (fold + 1) * places.size() / folds;
-    std::vector<std::size_t> rest = places;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(from),
-               rest.begin() + static_cast<std::ptrdiff_t>(to));
-    const auto fit = fit_camera(board, corners_of(views, rest), size, lens);
+  for (const Fold& fold : folds_of(used(views))) {
+    const auto fit = fit_camera(board, corners_of(views, fold.rest), size, lens);
     if (!fit) return fit.error();
     cameras.push_back(intrinsics_of(fit->camera));
-    for (std::size_t i = from; i < to; ++i) {
-      View& view = views[places[i]];
+    for (const std::size_t place : fold.left_out) {
+      View& view = views[place];
       const auto pose = fit_pose(board, view.corners, fit->camera);
       if (!pose) continue;
       tests.push_back(*pose);
       view.held_out_rms_px = pose->rms_px();
     }
   }
+  const auto folds = static_cast<double>(cameras.size());
+  result.folds = static_cast<int>(cameras.size());
   result.rms_px = rms_px(tests);
   Intrinsics mean = Intrinsics::Zero(), squares = Intrinsics::Zero();
-  for (const Intrinsics& camera : cameras) mean += camera / static_cast<double>(folds);
+  for (const Intrinsics& camera : cameras) mean += camera / folds;
   for (const Intrinsics& camera : cameras) squares += (camera - mean).cwiseAbs2();
-  result.sigma = (squares * (static_cast<double>(folds) - 1.0) / static_cast<double>(folds)).cwiseSqrt();
+  result.sigma = (squares * (folds - 1.0) / folds).cwiseSqrt();
   const auto focal = [](const Intrinsics& camera) { return 0.5 * (camera[0] + camera[1]); };
   const auto [shortest, longest] = std::ranges::minmax_element(cameras, {}, focal);
   result.shortest_focal_px = focal(*shortest);

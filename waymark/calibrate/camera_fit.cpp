@@ -303,7 +303,7 @@ double rms_px(std::span<const FittedView> views) {
 
 Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> views, ImageSize size,
                              Lens lens) {
-  if (views.size() < kLeastViews)
+  if (views.size() < kFewestViews)
     return Error{fmt::format("{} views of the board are too few: {} are needed at least, and 15 are good",
                              views.size(), kLeastViews)};
   auto homographies = homographies_of(board, views);

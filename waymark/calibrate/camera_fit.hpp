@@ -49,13 +49,15 @@ struct CameraFit {
   [[nodiscard]] Intrinsics sigma() const { return covariance.diagonal().cwiseSqrt(); }
 };
 
-/// A view has at least so many corners, not all on a line; so many views make a camera.
+/// A view has at least so many corners, not all on a line; so many views make a camera that is of use.
 inline constexpr int kLeastCorners = 6;
 inline constexpr int kLeastViews = 3;
+/// Fewer leave intrinsics open: a homography has two numbers more than a pose (Zhang, section 3.1).
+inline constexpr int kFewestViews = 2;
 
 /// Camera and poses of the board by least squares over all corners: Levenberg-Marquardt, the poses eliminated
 /// from each step, from a start by the homographies of the views (Zhang, "A flexible new technique for camera
-/// calibration", PAMI 2000). Some 10 ms for 15 views of 54 corners. An error: fewer than kLeastViews views,
+/// calibration", PAMI 2000). Some 10 ms for 15 views of 54 corners. An error: fewer than kFewestViews views,
 /// or views that leave the camera open.
 [[nodiscard]] Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> views,
                                            ImageSize size, Lens lens);
