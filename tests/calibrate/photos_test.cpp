@@ -32,6 +32,22 @@ TEST(Photos, OfAGoodSetFitWellAlsoThoseLeftOut) {
   }
 }
 
+TEST(Photos, OfTwoCamerasAreToldApart) {
+  WAYMARK_REQUIRE_DATA("calib-chessboard");
+  const auto result = calibrate("calib-chessboard", {.corners = {9, 6}, .square_m = 0.025});
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_TRUE(result->two_cameras);
+  for (const auto& group : result->two_cameras->groups) {
+    EXPECT_EQ(group.views.size(), 13U);
+    EXPECT_LE(group.rms_px, 0.20);
+    for (const std::size_t i : group.views)
+      EXPECT_EQ(result->views[i].name[0], result->views[group.views[0]].name[0]);
+  }
+  ASSERT_TRUE(result->is_weak());
+  const std::string& what = result->weaknesses[0].what;
+  EXPECT_NE(what.find("left*.jpg (13 views) | right*.jpg (13 views)"), std::string::npos) << what;
+}
+
 TEST(Photos, OfABoardInAHandThatShakesAreWeak) {
   WAYMARK_REQUIRE_DATA("saut-pioneer");
   const auto result = calibrate("saut-pioneer/calibration", {.corners = {8, 6}});
@@ -44,6 +60,7 @@ TEST(Photos, OfABoardInAHandThatShakesAreWeak) {
   EXPECT_TRUE(says("the focal length is known to"));
   EXPECT_TRUE(says("the principal point"));
   EXPECT_TRUE(says("views that were left out"));
+  EXPECT_FALSE(result->two_cameras);
 }
 
 TEST(Photos, OfACharucoBoardAreTooFew) {

@@ -51,6 +51,22 @@ TEST(Weaknesses, LargeErrors) {
   EXPECT_TRUE(names(text, "reprojection errors")) << text;
 }
 
+TEST(Weaknesses, TwoCamerasComeFirstByTheNamesOfTheirViews) {
+  CameraOptions zoomed = true_camera();
+  zoomed.fu_px *= 1.5;
+  zoomed.fv_px *= 1.5;
+  auto views = named(photograph(chessboard(), true_camera(), 10, 0.2, 6));
+  for (auto& view : named(photograph(chessboard(), zoomed, 10, 0.2, 7))) {
+    view.name = "near " + view.name;
+    views.push_back(std::move(view));
+  }
+  views[4].fate = Fate::kNoBoard;
+  const auto text = weaknesses_of(std::move(views));
+  EXPECT_TRUE(text.starts_with("the views are of two cameras, or focus or zoom moved: view * (9 views"))
+      << text;
+  EXPECT_TRUE(names(text, " | near view * (10 views")) << text;
+}
+
 TEST(Weaknesses, EachSaysWhatToPhotograph) {
   const auto result =
       calibrate_camera(chessboard(), named(photograph(chessboard(), true_camera(), 4, 1.5, 5)));

@@ -179,6 +179,7 @@ Result<CameraCalibration> calibrate_camera(const Board& board, std::vector<View>
   keep_fits(result);
   result.projection = projection_sigmas(result.fit.camera, result.fit.covariance);
   result.covered = covered_part(result.views, size);
+  result.two_cameras = find_two_cameras(board, result.views);
   result.weaknesses = find_weaknesses(result);
   return result;
 }

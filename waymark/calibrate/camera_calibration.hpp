@@ -6,6 +6,7 @@
 
 #include "waymark/calibrate/camera_fit.hpp"
 #include "waymark/calibrate/projection_sigma.hpp"
+#include "waymark/calibrate/two_cameras.hpp"
 #include "waymark/calibrate/view.hpp"
 
 namespace waymark::calibrate {
@@ -36,6 +37,7 @@ struct CameraCalibration {
   HeldOut held_out;
   std::vector<ProjectionSigma> projection;
   double covered = 0.0;  ///< part of the cells of a grid over the picture with corners in them
+  std::optional<TwoCameras> two_cameras;  ///< where the views are not all of one
   std::vector<Weakness> weaknesses;
 
   [[nodiscard]] bool is_weak() const { return !weaknesses.empty(); }

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "waymark/calibrate/coverage.hpp"
+#include "waymark/calibrate/name_groups.hpp"
 
 namespace waymark::calibrate {
 namespace {
@@ -28,6 +29,34 @@ constexpr const char* kTiltIt =
     "photograph the board tilted by 20 to 45 degrees, to the left, to the right, up and down, near and far";
 
 using Found = std::vector<Weakness>;
+
+/// One of the groups by the names of its views, and how many were dropped because most are of the other.
+std::string name_group(const CameraCalibration& c, std::size_t group) {
+  std::vector<std::string> names;
+  std::vector<bool> is_member;
+  std::size_t dropped = 0;
+  for (std::size_t i = 0; i < c.views.size(); ++i) {
+    const auto has = [i](const TwoCameras::Group& g) { return std::ranges::count(g.views, i) > 0; };
+    if (std::ranges::none_of(c.two_cameras->groups, has)) continue;
+    names.push_back(c.views[i].name);
+    is_member.push_back(has(c.two_cameras->groups[group]));
+    if (is_member.back() && c.views[i].fate == Fate::kOutlier) ++dropped;
+  }
+  return fmt::format("{} ({} views{})", describe_members(names, is_member),
+                     c.two_cameras->groups[group].views.size(),
+                     dropped > 0 ? fmt::format(", {} dropped", dropped) : "");
+}
+
+void check_one_camera(const CameraCalibration& c, Found& found) {
+  if (!c.two_cameras) return;
+  const auto& [first, second] = c.two_cameras->groups;
+  found.push_back({fmt::format("the views are of two cameras, or focus or zoom moved: {} | {}: "
+                               "{:.2f} px together, {:.2f} and {:.2f} px apart",
+                               name_group(c, 0), name_group(c, 1), c.two_cameras->together_px, first.rms_px,
+                               second.rms_px),
+                   "calibrate each group by itself (waymark calibrate camera FILES), from 15 views or more, "
+                   "with focus and zoom locked"});
+}
 
 void check_count(const CameraCalibration& c, Found& found) {
   if (c.used() < kViews)
@@ -114,6 +143,7 @@ void check_coverage(const CameraCalibration& c, ImageSize size, Found& found) {
 std::vector<Weakness> find_weaknesses(const CameraCalibration& c) {
   const ImageSize size{c.fit.camera.width_px, c.fit.camera.height_px};
   Found found;
+  check_one_camera(c, found);
   check_count(c, found);
   check_errors(c, found);
   check_focal_length(c, found);
