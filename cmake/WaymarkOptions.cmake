@@ -36,7 +36,9 @@ endif()
 find_program(WAYMARK_CCACHE ccache)
 mark_as_advanced(WAYMARK_CCACHE)
 if(WAYMARK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${WAYMARK_CCACHE}")
+  # One cache for all checkouts: paths inside the tree count relative to the build.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+                                  "${WAYMARK_CCACHE}")
 endif()
 
 # waymark_warnings(<target>): the warnings that all our own code is free of. A plain struct may be initialised by its first
