@@ -14,7 +14,7 @@ namespace {
 smooth::Smoothed smoothed(double sigma, double prior_sigma) {
   smooth::Smoothed result;
   CalibrationEstimate& c = result.calibration;
-  c.mean << 0.02, -0.03, 0.001, 0.04, 0.1, 0.02, 0.03, 0.05, -0.06;
+  c.mean << 0.02, -0.03, 0.001, 0.04, 0.1, 0.02, 0.03, 0.05, -0.06, 0.07;
   c.sigmas.setConstant(sigma);
   c.prior_sigmas.setConstant(prior_sigma);
   result.calibration_covariance.diagonal().setConstant(sigma * sigma);

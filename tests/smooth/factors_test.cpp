@@ -54,7 +54,10 @@ TEST(LegFactor, IsZeroWhereTheOdometryIsRight) {
 std::vector<Sighting> all_kinds() {
   Eigen::Matrix2d R;
   R << 0.04, 0.01, 0.01, 0.09;
-  return {{0, 0, RangeBearing{5.0, 0.3}, R}, {0, 0, Range{5.0}, R}, {0, 0, Bearing{0.3}, R}};
+  const Eigen::Vector3d velocity(0.8, -0.1, 1.5);
+  return {{0, 0, RangeBearing{5.0, 0.3}, R, velocity},
+          {0, 0, Range{5.0}, R, velocity},
+          {0, 0, Bearing{0.3}, R, velocity}};
 }
 
 TEST(SightingFactor, JacobiansAgreeWithCentralDifferences) {
@@ -77,6 +80,16 @@ TEST(SightingFactor, JacobiansAgreeWithCentralDifferences) {
       EXPECT_TRUE(matrix_near(factor.J_calibration, numeric_jacobian(of_calibration, c), 1e-6));
     }
   }
+}
+
+TEST(SightingFactor, OfALateSensorIsFromWhereTheRobotWas) {
+  const Eigen::Vector2d p(6.0, 1.0);
+  Sighting late{0, 0, RangeBearing{5.0, 0.3}, Eigen::Matrix2d::Identity(), {1.0, 0.0, 0.5}};
+  Calibration c = Calibration::Zero();
+  c[kDelay] = 0.2;
+  const Pose2 now{2.0, 0.5, 0.3};
+  const auto seen_before = linearize_sighting(late, now * Pose2{-0.2, 0.0, -0.1}, {}, p, Calibration::Zero());
+  EXPECT_TRUE(matrix_near(linearize_sighting(late, now, {}, p, c).residual, seen_before.residual, 1e-12));
 }
 
 TEST(SightingFactor, CountsInStandardDeviations) {

@@ -81,6 +81,23 @@ TEST(Solve, WhatIsLeftOverAndWhatWasFollowedMakeUpTheNoise) {
   EXPECT_NEAR(ratio[1], 1.0, 4.0 * sigma);
 }
 
+TEST(Solve, WhatIsLeftOverOfLegsAndWhatWasFollowedMakeUpTheirNoise) {
+  constexpr int kSeeds = 20;
+  Eigen::Vector3d ratio = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const World world = drive(seed, 60);
+    const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
+    ASSERT_EQ(solution.leg_remainders.size(), world.graph.legs.size());
+    for (const LegRemainder& leg : solution.leg_remainders) {
+      ratio += (leg.residual.cwiseAbs2() + leg.followed).cwiseQuotient(leg.stated);
+      ++count;
+    }
+  }
+  // The mean of chi-squares, of which a part only is random.
+  for (const double each : ratio / count) EXPECT_NEAR(each, 1.0, 4.0 * std::sqrt(2.0 / count));
+}
+
 TEST(Solve, FindsWhereTheSensorSits) {
   World world = drive(3, 200);
   const Pose2 mount = world.graph.T_robot_sensor;

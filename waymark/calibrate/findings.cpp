@@ -41,12 +41,12 @@ std::vector<Finding> wheel_findings(const smooth::Smoothed& smoothed, const Conf
   return list;
 }
 
+}  // namespace
+
 double value_of(const Config& config, const std::string& key) {
   Config copy = config;
   return std::strtod(describe(copy).value(key).c_str(), nullptr);
 }
-
-}  // namespace
 
 std::vector<Finding> findings(const smooth::Smoothed& smoothed, const Config& during, const Config& before,
                               OdometryKind odometry) {
@@ -86,6 +86,7 @@ Calibration deviation(const Config& during, const Config& to, OdometryKind odome
   c[kBearingOffset] = to_radians(during.sensor.yaw_deg - to.sensor.yaw_deg);
   c[kMountX] = to.sensor.x_m - during.sensor.x_m;
   c[kMountY] = to.sensor.y_m - during.sensor.y_m;
+  c[kDelay] = to.sensor.delay_s - during.sensor.delay_s;
   return c;
 }
 

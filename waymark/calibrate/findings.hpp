@@ -17,6 +17,9 @@ struct Finding {
   bool is_key = true;   ///< else it follows from others, and no config has it
 };
 
+/// Of a key that is a number.
+[[nodiscard]] double value_of(const Config& config, const std::string& key);
+
 /// What a smoothed run with the config `during` says of its sensors: of wheels their radii and their track,
 /// of other odometry its scales and how it turns by itself; mount and ranges where they were estimated.
 /// `before` is the config that holds without this.

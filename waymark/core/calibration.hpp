@@ -15,6 +15,7 @@ enum CalibrationIndex : Eigen::Index {
   kTurnPerMetre,   ///< rad/m that the odometry turns too little: one wheel is larger than the other
   kMountX,         ///< m that the landmark sensor sits further ahead
   kMountY,         ///< m that it sits further left
+  kDelay,          ///< s by which its stamps are later; the last
   kCalibrationSize
 };
 

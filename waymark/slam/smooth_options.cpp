@@ -31,6 +31,8 @@ void describe(Schema& schema, SmoothOptions& o) {
               "the same of where the landmark sensor sits on the robot, m; 0: where the config says");
   schema.real("smooth.mount_yaw_sigma_deg", o.mount_yaw_sigma_deg, {0.0, 180.0},
               "the same of where it looks, beside what sensor.shared_bearing_sigma_deg says, degrees");
+  schema.real("smooth.delay_sigma_s", o.delay_sigma_s, {0.0, 10.0},
+              "the same of how late its stamps are, s; 0: as sensor.delay_s says");
 }
 
 }  // namespace waymark

@@ -20,6 +20,7 @@ struct SmoothOptions {
   double turn_per_m_sigma_deg = 0.0;
   double mount_sigma_m = 0.0;
   double mount_yaw_sigma_deg = 0.0;
+  double delay_sigma_s = 0.0;
 };
 
 /// Keys smooth.*.

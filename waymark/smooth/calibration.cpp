@@ -18,6 +18,7 @@ Calibration calibration_sigmas(const SmoothOptions& options, const SensorErrors&
   sigmas[kBearingOffset] =
       to_radians(std::hypot(errors.shared_bearing_sigma_deg, options.mount_yaw_sigma_deg));
   sigmas[kMountX] = sigmas[kMountY] = options.mount_sigma_m;
+  sigmas[kDelay] = options.delay_sigma_s;
   return sigmas;
 }
 

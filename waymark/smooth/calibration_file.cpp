@@ -30,6 +30,7 @@ std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate, 
   add(is_camera ? "camera.mount_y_m" : "sensor.y_m", kMountY, sensor.y_m, 1.0);
   add(is_camera ? "camera.mount_yaw_deg" : "sensor.yaw_deg", kBearingOffset, sensor.yaw_deg,
       to_degrees(-1.0));
+  add("sensor.delay_s", kDelay, sensor.delay_s, 1.0);
   return keys;
 }
 

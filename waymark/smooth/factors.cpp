@@ -40,6 +40,21 @@ Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, c
   return predicted;
 }
 
+/// Where the robot was when a late sighting was made, from where it was at its stamp.
+Pose2 moved_back(const Sighting& sighting, const Calibration& c) {
+  const Eigen::Vector3d back = -c[kDelay] * sighting.velocity;
+  return {back.x(), back.y(), back.z()};
+}
+
+/// From Jacobians to the pose when it was seen to those to the pose at its stamp, and to the delay.
+void account_for_delay(Predicted& predicted, const Eigen::Vector3d& velocity, const Pose2& T_world_robot,
+                       const Pose2& T_world_seen) {
+  auto& H = predicted.model.H_pose;
+  const Eigen::Vector2d v_world = T_world_robot.rotation() * velocity.head<2>();
+  predicted.J_calibration.col(kDelay) = -H.leftCols<2>() * v_world - H.col(2) * velocity.z();
+  H.col(2) += H.leftCols<2>() * perpendicular(T_world_seen.position() - T_world_robot.position());
+}
+
 /// Rows of a prediction, divided by the square root of their covariance.
 template <int Dim>
 SightingFactor whiten(const Predicted& predicted, Eigen::Index first_row,
@@ -94,10 +109,13 @@ LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
 SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
                                   const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
                                   const Calibration& calibration) {
-  const Pose2 T_world_sensor = T_world_robot * moved_mount(T_robot_sensor, calibration);
+  const Pose2 T_world_seen = T_world_robot * moved_back(sighting, calibration);
+  const Pose2 T_world_sensor = T_world_seen * moved_mount(T_robot_sensor, calibration);
   if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
   const auto predicted = [&](double range_m, double bearing_rad) {
-    return predict({range_m, bearing_rad}, T_world_robot, T_robot_sensor, p_world, calibration);
+    Predicted seen = predict({range_m, bearing_rad}, T_world_seen, T_robot_sensor, p_world, calibration);
+    account_for_delay(seen, sighting.velocity, T_world_robot, T_world_seen);
+    return seen;
   };
   const Eigen::Matrix2d& R = sighting.covariance;
   if (const auto* z = std::get_if<RangeBearing>(&sighting.value))

@@ -31,6 +31,9 @@ struct Sighting {
   int landmark = 0;
   Measurement value;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  /// Of the robot, in its frame, by its odometry: x and y in m/s, turning in rad/s. Tells a sensor that is
+  /// late.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
 };
 
 /// Poses, landmarks and what the sensors were like.

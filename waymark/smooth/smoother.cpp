@@ -14,9 +14,8 @@ namespace {
 /// Takes the steps of the odometry together to legs between the poses at which something was seen.
 class LegBuilder {
  public:
-  LegBuilder(const Recording& recording, const Config& config, const std::vector<std::size_t>& steps,
-             RunGraph& run)
-      : recording_(recording), config_(config), steps_(steps), run_(run) {
+  LegBuilder(const Recording& recording, const Config& config, const Before& before, RunGraph& run)
+      : recording_(recording), config_(config), before_(before), run_(run) {
     run_.steps.push_back(0);
     run_.start.poses.push_back(recording.trajectory.front().pose);
   }
@@ -32,25 +31,34 @@ class LegBuilder {
   }
 
   /// The pose at the present step: a new one if the robot moved since the last; nothing if it did, and not
-  /// far enough.
+  /// far enough, or if it stands and what it sees would only be the last error once more.
   [[nodiscard]] std::optional<int> pose_at(std::size_t step) {
-    if (!leg_.steps.empty() && !is_far(step)) return std::nullopt;
-    if (!leg_.steps.empty()) add_pose(step);
+    const bool moved = !leg_.steps.empty();
+    if (moved && !is_far(step)) return std::nullopt;
+    if (moved) add_pose(step);
+    if (!seen_at_) seen_at_ = step;
+    if (*seen_at_ != step && leaves_out()) return std::nullopt;
     return static_cast<int>(run_.steps.size()) - 1;
   }
 
  private:
+  [[nodiscard]] bool leaves_out() const {
+    return config_.smooth.least_leg_m > 0.0 || config_.smooth.least_leg_deg > 0.0;
+  }
+
   [[nodiscard]] bool is_far(std::size_t step) const {
-    if (!steps_.empty()) return std::ranges::binary_search(steps_, step);
+    if (!before_.steps.empty()) return std::ranges::binary_search(before_.steps, step);
     return motion_.increment.position().norm() >= config_.smooth.least_leg_m ||
            std::abs(motion_.increment.theta_rad) >= to_radians(config_.smooth.least_leg_deg);
   }
 
   void add_pose(std::size_t step) {
-    leg_.covariance = motion_.covariance;
+    const auto larger = before_.odometry_noise.asDiagonal();
+    leg_.covariance = larger * motion_.covariance * larger;
     leg_.measured_part = measured_part();
     run_.graph.legs.push_back(std::exchange(leg_, {}));
     motion_ = slip_ = {};
+    seen_at_.reset();
     run_.steps.push_back(step);
     run_.start.poses.push_back(recording_.trajectory[step].pose);
   }
@@ -73,9 +81,10 @@ class LegBuilder {
 
   const Recording& recording_;
   const Config& config_;
-  const std::vector<std::size_t>& steps_;
+  const Before& before_;
   RunGraph& run_;
   Leg leg_;
+  std::optional<std::size_t> seen_at_;  // step at which the last pose saw something
   Motion motion_;
   Motion slip_;  // what the robot does beside what is measured
 };
@@ -117,6 +126,23 @@ std::map<LandmarkId, int> add_landmarks(const Recording& recording, RunGraph& ru
     add_landmark(sighting.landmark, *p_world, run);
   }
   return index;
+}
+
+/// By the odometry around a step of the run: over long enough that noise of encoders is small against what a
+/// robot does that turns, stops or starts, which is what tells a delay.
+Eigen::Vector3d velocity_at(const Recording& recording, std::size_t step) {
+  constexpr Duration kEachWay = std::chrono::milliseconds(250);
+  const Trajectory& path = recording.trajectory;
+  std::size_t first = step, last = step;
+  while (first > 0 && path[step].stamp - path[first].stamp < kEachWay) --first;
+  while (last + 1 < path.size() && path[last].stamp - path[step].stamp < kEachWay) ++last;
+  Pose2 moved;
+  for (std::size_t i = first + 1; i <= last; ++i) moved = moved * recording.motions[i].increment;
+  const double dt_s = to_seconds(path[last].stamp - path[first].stamp);
+  if (!(dt_s > 0.0)) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity(0.0, 0.0, moved.theta_rad);
+  velocity.head<2>() = rotation_matrix(-0.5 * moved.theta_rad) * moved.position();  // as seen from its middle
+  return velocity / dt_s;
 }
 
 /// What sightings of one landmark have in common is not estimated here and counts as noise.
@@ -199,8 +225,9 @@ RunGraph graph_of(const Recording& recording, const Config& config, const Before
   run.graph.landmark_sigma_m = config.sensor.max_range_m;
   run.graph.calibration_mean = before.calibration;
   run.graph.calibration_sigmas = calibration_sigmas(config.smooth, config.sensor.errors, config.observe);
+  const bool estimates_delay = run.graph.calibration_sigmas[kDelay] > 0.0;
   const std::map<LandmarkId, int> index = add_landmarks(recording, run);
-  LegBuilder legs(recording, config, before.steps, run);
+  LegBuilder legs(recording, config, before, run);
   auto sighting = recording.sightings.begin();
   for (std::size_t step = 0; step < recording.trajectory.size(); ++step) {
     if (step > 0) legs.advance(step);
@@ -210,8 +237,10 @@ RunGraph graph_of(const Recording& recording, const Config& config, const Before
       const auto pose = legs.pose_at(step);
       if (!pose) continue;
       ++run.observations[static_cast<std::size_t>(landmark->second)];
-      run.graph.sightings.push_back({*pose, landmark->second, sighting->observation.value,
-                                     white_covariance(sighting->observation, config.sensor)});
+      run.graph.sightings.push_back(
+          {*pose, landmark->second, sighting->observation.value,
+           white_covariance(sighting->observation, config.sensor),
+           estimates_delay ? velocity_at(recording, step) : Eigen::Vector3d::Zero()});
     }
   }
   return run;
@@ -237,6 +266,7 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   smoothed.converged = solution.converged;
   smoothed.steps = std::move(run.steps);
   smoothed.sightings = run.graph.sightings.size();
+  smoothed.leg_remainders = solution.leg_remainders;
   for (std::size_t i = 0; i < solution.remainders.size(); ++i)
     smoothed.remainders.push_back({run.graph.sightings[i].value, solution.remainders[i]});
   smoothed.cpu = thread_cpu_time() - start;

@@ -28,6 +28,7 @@ struct Smoothed {
   std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
   std::size_t sightings = 0;       ///< of landmarks of the map
   std::vector<SmoothedSighting> remainders;  ///< of these; empty where there were too many for covariances
+  std::vector<LegRemainder> leg_remainders;  ///< of the odometry between these poses; likewise
   Duration cpu{0};
 };
 
@@ -45,6 +46,8 @@ struct RunGraph {
 struct Before {
   Calibration calibration = Calibration::Zero();  ///< what deviations from the config are taken to be
   std::vector<std::size_t> steps;  ///< whose poses are estimated; empty: as smooth.least_leg_* says
+  /// By how much standard deviations of the odometry, in x, y and theta, are larger than stated.
+  Eigen::Vector3d odometry_noise = Eigen::Vector3d::Ones();
 };
 
 [[nodiscard]] RunGraph graph_of(const Recording& recording, const Config& config, const Before& before = {});

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "waymark/smooth/factors.hpp"
 #include "waymark/smooth/selected_inverse.hpp"
@@ -279,31 +282,58 @@ class Solver {
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
     for (const Sighting& sighting : graph_.sightings)
       solution.remainders.push_back(remainder_of(sighting, *P));
+    for (std::size_t i = 0; i < graph_.legs.size(); ++i)
+      solution.leg_remainders.push_back(remainder_of_leg(i, *P));
   }
 
   /// All variables that a sighting depends on are joined in the pattern of the inverse.
   [[nodiscard]] Remainder remainder_of(const Sighting& sighting, const SelectedInverse& P) const {
     const SightingFactor f = factor_of(estimate_, sighting);
-    const Eigen::Index calibrated = std::ssize(layout_.estimated());
-    Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + calibrated);
+    Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + std::ssize(layout_.estimated()));
     J << f.J_pose, f.J_landmark, f.J_calibration(Eigen::all, layout_.estimated());
+    const Eigen::Matrix2d followed =
+        followed_by(P, J,
+                    with_calibration({{Layout::pose(static_cast<std::size_t>(sighting.pose)), 3},
+                                      {layout_.landmark(static_cast<std::size_t>(sighting.landmark)), 2}}));
+    const Eigen::Vector2d stated = sighting.covariance.diagonal();
+    if (f.dof < 2) return {std::sqrt(stated[0]) * f.residual, stated[0] * followed.diagonal(), stated};
+    const Eigen::Matrix2d root = sighting.covariance.llt().matrixL();
+    return {root * f.residual, (root * followed * root.transpose()).diagonal(), stated};
+  }
+
+  [[nodiscard]] LegRemainder remainder_of_leg(std::size_t i, const SelectedInverse& P) const {
+    const LegFactor f = factor_of_leg(estimate_, i);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> J(3, 6 + std::ssize(layout_.estimated()));
+    J << f.J_before, f.J_after, f.J_calibration(Eigen::all, layout_.estimated());
+    return {f.residual,
+            followed_by(P, J, with_calibration({{Layout::pose(i), 3}, {Layout::pose(i + 1), 3}})).diagonal(),
+            leg_information_[i].inverse().diagonal()};
+  }
+
+  /// Where stretches of variables (the first of each, how many) and the calibration stand.
+  [[nodiscard]] std::vector<Eigen::Index> with_calibration(
+      std::initializer_list<std::pair<Eigen::Index, Eigen::Index>> stretches) const {
     std::vector<Eigen::Index> at;
-    for (Eigen::Index i = 0; i < 3; ++i)
-      at.push_back(Layout::pose(static_cast<std::size_t>(sighting.pose)) + i);
-    for (Eigen::Index i = 0; i < 2; ++i)
-      at.push_back(layout_.landmark(static_cast<std::size_t>(sighting.landmark)) + i);
-    for (Eigen::Index i = 0; i < calibrated; ++i) at.push_back(layout_.calibration() + i);
-    Eigen::Matrix2d followed = Eigen::Matrix2d::Zero();
+    const auto add = [&at](Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index i = 0; i < count; ++i) at.push_back(first < 0 ? -1 : first + i);
+    };
+    for (const auto& [first, count] : stretches) add(first, count);
+    add(layout_.calibration(), std::ssize(layout_.estimated()));
+    return at;
+  }
+
+  /// J P J^T; columns at < 0 are no variables.
+  template <int Rows>
+  static Eigen::Matrix<double, Rows, Rows> followed_by(const SelectedInverse& P,
+                                                       const Eigen::Matrix<double, Rows, Eigen::Dynamic>& J,
+                                                       const std::vector<Eigen::Index>& at) {
+    Eigen::Matrix<double, Rows, Rows> followed = Eigen::Matrix<double, Rows, Rows>::Zero();
     for (std::size_t i = 0; i < at.size(); ++i)
       for (std::size_t j = 0; j < at.size(); ++j)
         if (at[i] >= 0 && at[j] >= 0)
           followed += J.col(static_cast<Eigen::Index>(i)) * P(at[i], at[j]) *
                       J.col(static_cast<Eigen::Index>(j)).transpose();
-    const Eigen::Matrix2d root = sighting.covariance.llt().matrixL();
-    if (f.dof < 2)
-      return {std::sqrt(sighting.covariance(0, 0)) * f.residual,
-              sighting.covariance(0, 0) * followed.diagonal()};
-    return {root * f.residual, (root * followed * root.transpose()).diagonal()};
+    return followed;
   }
 
   /// Its columns are cheap, however large the rest is.

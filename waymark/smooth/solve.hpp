@@ -13,12 +13,17 @@ struct SolveOptions {
   double most_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
 };
 
-/// What is left over of a sighting, range and bearing (or its one number), predicted - measured, and how much
-/// of its variance the estimate followed: the noise of the measurement is what both make up together.
-struct Remainder {
-  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-  Eigen::Vector2d followed = Eigen::Vector2d::Zero();  ///< diagonal of H P H^T
+/// What is left over of something measured, predicted - measured, and how much of its variance the estimate
+/// followed: the noise of the measurement is what both make up together.
+template <int Size>
+struct RemainderOf {
+  using Vector = Eigen::Matrix<double, Size, 1>;
+  Vector residual = Vector::Zero();
+  Vector followed = Vector::Zero();  ///< diagonal of H P H^T
+  Vector stated = Vector::Ones();    ///< variances by which it was weighed
 };
+using Remainder = RemainderOf<2>;     ///< of range and bearing, or of the one number of a sighting
+using LegRemainder = RemainderOf<3>;  ///< of x, y and theta of a leg
 
 /// The best estimate, how it was found, and how sure it is.
 struct Solution {
@@ -30,7 +35,8 @@ struct Solution {
   /// Of each pose given the first and of each landmark; empty where that would have taken too long.
   std::vector<Eigen::Matrix3d> pose_covariances;
   std::vector<Eigen::Matrix2d> landmark_covariances;
-  std::vector<Remainder> remainders;  ///< of each sighting; empty with the covariances
+  std::vector<Remainder> remainders;         ///< of each sighting; empty with the covariances
+  std::vector<LegRemainder> leg_remainders;  ///< of each leg, in the frame of its first pose; likewise
   Calibration calibration_sigmas = Calibration::Zero();
   CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
 };
