@@ -31,7 +31,7 @@ void add_config(CLI::App& app, Work& work);
 
 /// --config, --set, --seed and --threads, with the same meaning wherever they appear.
 struct SettingsFlags {
-  std::string file;
+  std::vector<std::string> files;
   std::vector<std::string> assignments;
   std::string seed;
   std::string threads;

@@ -15,7 +15,7 @@ struct Request {
 
 Result<void> config(const Request& request) {
   UserSettings user = request.flags.settings();
-  if (!request.validate.empty()) user.file = request.validate;
+  if (!request.validate.empty()) user.files.emplace_back(request.validate);
   auto config = resolve_config(user);
   if (!config) return config.error();
   if (!request.validate.empty())

@@ -26,8 +26,11 @@ int report(const Error& error) {
 }  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
-  command.add_option("--config", file, "YAML file with config keys (see `waymark config`)")
-      ->type_name("FILE");
+  command
+      .add_option("--config", files,
+                  "YAML file with config keys (see `waymark config`); of several, the later rank above")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command.add_option("--set", assignments, "one config key, for example --set sensor.range_sigma_m=0.1")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -38,7 +41,7 @@ void SettingsFlags::add_to(CLI::App& command) {
 
 UserSettings SettingsFlags::settings() const {
   UserSettings user;
-  if (!file.empty()) user.file = file;
+  user.files.assign(files.begin(), files.end());
   user.assignments = assignments;
   if (!seed.empty()) user.assignments.push_back("seed=" + seed);
   if (!threads.empty()) user.assignments.push_back("threads=" + threads);

@@ -38,11 +38,16 @@ TEST(Config, EveryKeyHasAUniqueName) {
 TEST(Config, LaterSettingsWin) {
   const auto file = std::filesystem::temp_directory_path() / "waymark_config_test.yaml";
   std::ofstream(file) << "seed: 5\nthreads: 2\n";
-  const auto config = resolve_config({file, {"seed=6"}});
+  const auto later = std::filesystem::temp_directory_path() / "waymark_config_test_later.yaml";
+  std::ofstream(later) << "threads: 3\n";
+  const auto config = resolve_config({{file, later}, {"seed=6"}});
+  const auto alone = resolve_config({{file}, {}});
   std::filesystem::remove(file);
-  ASSERT_TRUE(config.ok());
+  std::filesystem::remove(later);
+  ASSERT_TRUE(config.ok() && alone.ok());
   EXPECT_EQ(config->seed, 6U);
-  EXPECT_EQ(config->threads, 2);
+  EXPECT_EQ(config->threads, 3);
+  EXPECT_EQ(alone->threads, 2);
 }
 
 TEST(Config, AMistypedKeyNamesTheNearest) {
@@ -92,7 +97,7 @@ TEST(Config, AnUnknownScenarioNamesTheNearest) {
 TEST(Config, EveryShippedConfigIsValid) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(WAYMARK_CONFIG_DIR)) {
-    const auto config = resolve_config({entry.path(), {}});
+    const auto config = resolve_config({{entry.path()}, {}});
     EXPECT_TRUE(config.ok()) << config.error().message;
     ++files;
   }

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 SweepPlan two_blocks() {
   return {
       .input = "sim:square",
-      .user = {.file = {}, .assignments = {"sim.laps=2"}},
+      .user = {.files = {}, .assignments = {"sim.laps=2"}},
       .blocks = {{{"fastslam.particles", {"10", "20"}}, {"seed", {"1", "10", "2"}}, {"filter", {"fastslam"}}},
                  {{"filter", {"ekf"}}, {"seed", {"1", "2"}}}}};
 }

@@ -18,8 +18,8 @@ Result<void> apply(Schema& schema, const std::vector<std::string>& assignments, 
 }
 
 Result<void> apply(Schema& schema, const UserSettings& user) {
-  if (user.file)
-    if (auto done = schema.load_file(*user.file); !done) return done;
+  for (const auto& file : user.files)
+    if (auto done = schema.load_file(file); !done) return done;
   return apply(schema, user.assignments, "--set");
 }
 

@@ -67,9 +67,9 @@ struct Config {
 
 /// What the user wants changed: a file, then single keys, the later ones winning.
 struct UserSettings {
-  std::optional<std::filesystem::path> file;
-  std::vector<std::string> assignments;  ///< "key=value"
-  std::vector<std::string> defaults;     ///< the same where neither the log nor the user says anything
+  std::vector<std::filesystem::path> files;  ///< YAML; a later one ranks above those before
+  std::vector<std::string> assignments;      ///< "key=value"
+  std::vector<std::string> defaults;         ///< the same where neither the log nor the user says anything
 };
 
 /// A log, opened, with the config that holds for it.
