@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "waymark/io/files.hpp"
-#include "waymark/report/sensor_noise_report.hpp"
+#include "waymark/report/moving_study_report.hpp"
 #include "waymark/report/static_study_report.hpp"
 
 #include "calibrate_commands.hpp"
@@ -20,9 +20,9 @@ struct Request {
 };
 
 /// Of a robot that moves among landmarks.
-Result<calibrate::SensorNoise> from_log(const Request& request) {
+Result<calibrate::MovingStudy> from_log(const Request& request) {
   ProgressBar bar("run after run", request.verbosity);
-  return calibrate::calibrate_noise(request.input, request.flags.settings(), [&bar](double fraction) {
+  return calibrate::study_moving(request.input, request.flags.settings(), [&bar](double fraction) {
     bar.show(fraction);
     return !interrupted();
   });
@@ -81,12 +81,13 @@ void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
   add_verbosity(*command, request->verbosity);
   command->footer(
       "Examples:\n"
-      "  waymark calibrate sensor LOG -o out && waymark run LOG --config out/calibration.yaml\n"
+      "  waymark calibrate odometry LOG -o odometry\n"
+      "  waymark calibrate sensor LOG --config odometry/calibration.yaml -o sensor     # noise and delay\n"
+      "  waymark run LOG --config odometry/calibration.yaml --config sensor/calibration.yaml\n"
       "  waymark calibrate sensor --places places.csv -o out     # biases, noise, limits of range and "
       "view\n\n"
       "Calibrate odometry and mount first: what is wrong with them would count as noise. Writes "
-      "calibration.yaml (for --config), "
-      "calibration.json and report.html.");
+      "calibration.yaml (for --config), calibration.json and report.html.");
   command->callback([&work, request] { work = [request] { return calibrate_sensor(*request); }; });
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "waymark/slam/config.hpp"
+#include <Eigen/Core>
+
 #include "waymark/smooth/smoother.hpp"
 
 namespace waymark::calibrate {
@@ -30,34 +30,35 @@ struct RangeNoise {
   Value sigma_ratio;  ///< more per metre
 };
 
-/// A straight line through the standard deviations of bins, by least squares; neither part is negative.
+/// A straight line through the standard deviations of bins, by least squares; neither part is negative, and
+/// where the slope is less than twice its standard deviation there is none.
 [[nodiscard]] std::optional<RangeNoise> fit_range_noise(const std::vector<NoiseBin>& bins);
+
+/// By how much variances are larger than stated.
+struct VarianceFactor {
+  double value = 1.0;
+  double redundancy = 0.0;  ///< how many errors that rests on: what was not followed of them
+  double stated = 0.0;      ///< mean of the variances stated
+};
 
 /// What the sightings of a log say of their noise.
 struct SensorNoise {
   std::optional<RangeNoise> range;
-  std::optional<Value> bearing_sigma_deg;
+  std::optional<Value> bearing_sigma_rad;
   std::vector<NoiseBin> ranges;    ///< errors of ranges, by range
   std::vector<NoiseBin> bearings;  ///< errors of bearings, by bearing
-  int outliers = 0;                ///< left out: beyond 4 standard deviations
-  int runs = 0;
-  bool settled = false;
-  std::string input;
-  Config before;
-  std::vector<std::string> notes;
+  VarianceFactor range_variance, bearing_variance;
+  int outliers = 0;  ///< left out: beyond 4 standard deviations of what is left over
 };
 
-/// Noise from what is left over of sightings by the whole log, in bins of equally many: R is the mean of
-/// r r^T plus what the estimate followed, H P H^T (the innovation matching of Mehra 1970, by the smoothed
-/// estimate).
+/// Noise from what is left over of sightings by the whole log, in bins of equally many: variances are as many
+/// times larger than stated as the squares of what is left over are larger than the redundancies 1 - H P H^T
+/// / R (Foerstner 1979). What was stated is to be replaced by this until it stays: then R is the mean of r
+/// r^T plus what was followed (the innovation matching of Mehra 1970, by the smoothed estimate).
 [[nodiscard]] SensorNoise noise_of(const std::vector<smooth::SmoothedSighting>& sightings);
 
-/// Finds the noise of ranges and bearings of a sensor that moves among landmarks, vibration included, by what
-/// is left over; again with what was found until that settles. `keep_going` as in record(); false stops.
-[[nodiscard]] Result<SensorNoise> calibrate_noise(const std::string& input, const UserSettings& user,
-                                                  const std::function<bool(double)>& keep_going = {});
-
-/// As a config that puts in force what was found.
-[[nodiscard]] std::string to_yaml(const SensorNoise& noise);
+/// By how much variances of the odometry, in x, y and theta, are larger than stated; likewise.
+[[nodiscard]] std::array<VarianceFactor, 3> odometry_variance_of(
+    const std::vector<smooth::LegRemainder>& legs);
 
 }  // namespace waymark::calibrate

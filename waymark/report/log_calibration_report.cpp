@@ -6,6 +6,7 @@
 #include "waymark/eval/path_alignment.hpp"
 #include "waymark/eval/trajectory_error.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/report/findings_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/path_series.hpp"
 #include "waymark/report/report_json.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 using calibrate::Drift;
 using calibrate::DriftPair;
-using calibrate::Finding;
 using calibrate::LogCalibration;
 using Json = nlohmann::ordered_json;
 
@@ -24,13 +24,6 @@ constexpr const char* kWholeLog = "the path by the whole log";
 
 std::string dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-Json json_of(const Finding& finding) {
-  return {{"value", rounded(finding.found.value)},
-          {"sigma", rounded(finding.found.sigma)},
-          {"before", rounded(finding.before)},
-          {"told", !finding.found.is_untold}};
 }
 
 Json json_of(const Drift& drift) {
@@ -51,9 +44,8 @@ Json json_of(const LogCalibration& c) {
   Json json{{"input", c.input},
             {"runs", c.passes},
             {"settled", c.settled},
-            {"found", Json::object()},
+            {"found", Json::parse(findings_json(c.findings))},
             {"notes", c.notes}};
-  for (const Finding& finding : c.findings) json["found"][finding.found.key] = json_of(finding);
   if (c.drift) json["drift"] = json_of(*c.drift);
   if (c.drift_from_truth) json["drift_from_truth"] = json_of(*c.drift_from_truth);
   return json;
@@ -106,11 +98,7 @@ Json map_of(const LogCalibration& c, Stamp start) {
 }  // namespace
 
 std::string to_text(const LogCalibration& c) {
-  std::string text =
-      fmt::format("{} runs over {}\n  {:<30}{:>11}{:>13}\n", c.passes, c.input, "", "before", "found");
-  for (const auto& [found, before, is_key] : c.findings)
-    text += fmt::format("  {:<30}{:>11.5f}{:>13.5f} +- {:.5f}{}\n", found.key, before, found.value,
-                        found.sigma, found.is_untold ? "   (as assumed)" : "");
+  std::string text = findings_text(c.findings, c.passes, c.input);
   if (c.drift) text += text_of(*c.drift, kWholeLog);
   if (c.drift_from_truth) text += text_of(*c.drift_from_truth, "the truth");
   for (const auto& note : c.notes) text += fmt::format("  note: {}\n", note);

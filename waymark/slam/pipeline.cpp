@@ -134,6 +134,7 @@ void Pipeline::process_front_group() {
     if (const auto* observations = std::get_if<Observations>(&event.content)) {
       collect(*observations);
     } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
+      ++counts_.outlines;
       collect_markers(front_ends_.markers->see(*outlines));
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
