@@ -38,6 +38,41 @@ TEST(MarkerDetector, ReadsEveryMarkerThatTheSimulatorPrints) {
   }
 }
 
+/// On a wall along which the camera looks: some 8 by 25 pixels.
+MarkerPose slanted_pose(RandomStream& random) {
+  MarkerPose pose;
+  pose.p_camera_marker = {random.uniform(-0.2, 0.2), random.uniform(-0.8, 0.8), 4.2};
+  pose.R_camera_marker =
+      Eigen::AngleAxisd(random.uniform(1.2, 1.25), Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return pose;
+}
+
+/// Small pictures are searched enlarged, too, and corners come back in pixels of the picture.
+TEST(MarkerDetector, FindsMarkersOfFewPixelsInSmallPictures) {
+  if (!can_detect(MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
+  const auto detector = *make_marker_detector(*find_marker_dictionary("4x4_50"));
+  const Camera camera(test::marker_camera());
+  RandomStream random(2, StreamPurpose::kWorld);
+  constexpr int kCount = 40;
+  int found = 0, found_in_large = 0;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  for (int i = 0; i < kCount; ++i) {
+    const MarkerPose pose = slanted_pose(random);
+    GreyImage small(640, 480, 120), large(1200, 480, 120);
+    test::draw_marker(small, camera, pose, 0.2, i % sim::kMarkerPatterns);
+    test::draw_marker(large, camera, pose, 0.2, i % sim::kMarkerPatterns);
+    found_in_large += static_cast<int>(detector->detect(large).size());
+    const Corners truth = test::corners_of(camera, pose, 0.2);
+    for (const Marker& marker : detector->detect(small)) {
+      EXPECT_EQ(marker.id, i % sim::kMarkerPatterns);
+      ++found;
+      for (std::size_t k = 0; k < 4; ++k) shift += 0.25 * (marker.corners_px[k] - truth[k]);
+    }
+  }
+  EXPECT_GT(found, found_in_large + kCount / 4);
+  EXPECT_LT((shift / found).norm(), 0.3);
+}
+
 TEST(MarkerDetector, FindsNothingWhereNothingIs) {
   const GreyImage grey(320, 240, 128);
   for (const MarkerDictionary& each : marker_dictionaries()) {

@@ -22,7 +22,7 @@ constexpr double kSearchMax_px = 3.0;
 constexpr double kSearchMin_px = 1.0;
 constexpr double kStep_px = 0.5;  // across a side
 constexpr double kRiseMin_grey = 10.0;
-constexpr std::size_t kPointsMin = 4;
+constexpr std::size_t kPointsMin = 3;
 
 double grey_at(const ImageView& image, const Vector2d& p) {
   const int u = static_cast<int>(p.x()), v = static_cast<int>(p.y());

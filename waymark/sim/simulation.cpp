@@ -21,7 +21,7 @@ constexpr double kEventsMax = 1e7;
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
 // What the exposure of a driving camera leaves of its direction, measured in rendered rooms.
-constexpr double kMountSigma_deg = 1e-2;
+constexpr double kMountSigma_deg = 6e-3;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
