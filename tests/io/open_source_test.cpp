@@ -108,6 +108,8 @@ TEST(OpenSource, FileOfALogPointsToItsFolder) {
   EXPECT_THAT(open_source(file).error().message, HasSubstr("give its folder, " + folder.path().string()));
   const TempFolder other;
   EXPECT_THAT(open_source(other.write("x.bin", "\x01")).error().message, HasSubstr("x.bin is no log"));
+  EXPECT_THAT(open_source(other.write("drive.bag", "")).error().message,
+              HasSubstr("drive.bag: the file is empty"));
 }
 
 TEST(OpenSource, InputKeysAreBoundToTheOptions) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -53,6 +54,9 @@ Error not_a_folder(const fs::path& file) {
   if (is_log_folder(folder) || is_mrclam(folder) || is_uwb_labyrinth(folder) || is_planar_mono_slam(folder) ||
       !plaza_text_runs(folder).empty())
     return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored) && fs::is_empty(file, ignored))
+    return {file.string() + ": the file is empty; was its recording cut off?"};
   return {
       fmt::format("{} is no log: expected a log folder, a ROS bag, an MRCLAM directory, a .mat file of "
                   "Plaza, lost-in-the-woods, Victoria Park or the car park, or Victoria Park's graph",
