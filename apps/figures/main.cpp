@@ -14,6 +14,7 @@
 #include "waymark/report/results.hpp"
 
 #include "figures/budget.hpp"
+#include "figures/cameras.hpp"
 #include "figures/compressed.hpp"
 #include "figures/consistency.hpp"
 #include "figures/contact_sheet.hpp"
@@ -233,6 +234,7 @@ int main(int argc, char** argv) {
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
   waymark::add_budget(app, status);
+  waymark::add_cameras(app);
   waymark::add_consistency(app, status);
   waymark::add_contact_sheet(app, status);
   waymark::add_desk(app, status);

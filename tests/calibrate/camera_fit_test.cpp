@@ -82,8 +82,8 @@ TEST(CameraFit, PoseOfAKnownCameraIsThatOfTheBoard) {
   const CameraOptions camera = test::true_camera();
   RandomStream random(9, StreamPurpose::kSimulation);
   for (int found = 0; found < 10;) {
-    const Eigen::Isometry3d T = test::random_pose(board, {}, random);
-    const BoardCorners corners = test::project(board, camera, T);
+    const Eigen::Isometry3d T = simulated::random_pose(board, {}, random);
+    const BoardCorners corners = simulated::project(board, camera, T);
     if (corners.empty()) continue;
     const auto view = fit_pose(board, corners, camera);
     ASSERT_TRUE(view);

@@ -5,79 +5,21 @@
 
 #include <Eigen/Geometry>
 
-#include "waymark/calibrate/view.hpp"
-#include "waymark/core/angle.hpp"
-#include "waymark/core/random.hpp"
+#include "waymark/calibrate/simulated_board.hpp"
 
 namespace waymark::calibrate::test {
 
-inline Board chessboard() { return {.corners = {9, 6}, .square_m = 0.025}; }
+using simulated::chessboard;
+using simulated::named;
+using simulated::Poses;
+using simulated::true_camera;
 
-/// A lens with the distortion of a wide one.
-inline CameraOptions true_camera() {
-  return {.width_px = 640,
-          .height_px = 480,
-          .fu_px = 532.0,
-          .fv_px = 533.5,
-          .cu_px = 331.0,
-          .cv_px = 236.0,
-          .distortion = {.k1 = -0.28, .k2 = 0.09, .p1 = 0.001, .p2 = -0.0006}};
-}
-
-/// What photographs of a board at random poses vary in.
-struct Poses {
-  double tilt_deg = 40.0;  ///< at most, about either axis
-  double nearest_m = 0.25;
-  double farthest_m = 0.6;
-};
-
-inline Eigen::Isometry3d random_pose(const Board& board, const Poses& poses, RandomStream& random) {
-  const double tilt_rad = to_radians(poses.tilt_deg);
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = (Eigen::AngleAxisd(random.uniform(-tilt_rad, tilt_rad), Eigen::Vector3d::UnitX()) *
-                Eigen::AngleAxisd(random.uniform(-tilt_rad, tilt_rad), Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Eigen::Vector3d::UnitZ()))
-                   .toRotationMatrix();
-  const double z = random.uniform(poses.nearest_m, poses.farthest_m);
-  const Eigen::Vector2d middle = 0.5 * board.corner_m(board.size() - 1);
-  const Eigen::Vector3d place(random.uniform(-0.6, 0.6) * z, random.uniform(-0.45, 0.45) * z, z);
-  T.translation() = place - T.linear() * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
-  return T;
-}
-
-/// The corners of a board that is wholly in the picture; empty where it is not.
-inline BoardCorners project(const Board& board, const CameraOptions& options, const Eigen::Isometry3d& T) {
-  const Camera camera(options);
-  BoardCorners corners;
-  for (int i = 0; i < board.size(); ++i) {
-    const Eigen::Vector2d m = board.corner_m(i);
-    const auto image = camera.project(T * Eigen::Vector3d(m.x(), m.y(), 0.0));
-    if (!image || !camera.sees(image->pixel, 5.0)) return {};
-    corners.push_back({i, image->pixel});
-  }
-  return corners;
-}
-
+/// By a camera and of a board without flaws, but for the noise of corners.
 inline std::vector<BoardCorners> photograph(const Board& board, const CameraOptions& camera,
                                             std::size_t count, double noise_px, std::uint64_t seed,
                                             const Poses& poses = {}) {
   RandomStream random(seed, StreamPurpose::kSimulation);
-  std::vector<BoardCorners> views;
-  while (views.size() < count) {
-    BoardCorners corners = project(board, camera, random_pose(board, poses, random));
-    for (BoardCorner& corner : corners)
-      corner.pixel += noise_px * Eigen::Vector2d(random.normal(), random.normal());
-    if (!corners.empty()) views.push_back(std::move(corners));
-  }
-  return views;
-}
-
-inline std::vector<View> named(const std::vector<BoardCorners>& corners, ImageSize size = {640, 480}) {
-  std::vector<View> views;
-  for (const BoardCorners& each : corners)
-    views.push_back(
-        {.name = "view " + std::to_string(views.size()), .size = size, .corners = each, .edge_px = 1.5});
-  return views;
+  return simulated::photograph(board, camera, count, poses, {.noise_px = noise_px}, random);
 }
 
 /// A chessboard drawn flat: its first inner corner at (u, v), the rows turned by `turn_rad`, its edges

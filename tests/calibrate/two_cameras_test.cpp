@@ -49,23 +49,9 @@ std::vector<View> alternating(const std::vector<BoardCorners>& first,
 
 /// Of a board that is curved and twisted by `bend_m` at its ends, other than its model.
 std::vector<BoardCorners> photograph_bent(double bend_m, std::size_t count, std::uint64_t seed) {
-  const Board board = chessboard();
-  const Camera camera(true_camera());
-  const Eigen::Vector2d middle = 0.5 * board.corner_m(board.size() - 1);
   RandomStream random(seed, StreamPurpose::kSimulation);
-  std::vector<BoardCorners> views;
-  while (views.size() < count) {
-    const Eigen::Isometry3d T = test::random_pose(board, {}, random);
-    BoardCorners corners;
-    for (int i = 0; i < board.size(); ++i) {
-      const Eigen::Vector2d m = board.corner_m(i), q = (m - middle) / middle.x();
-      const auto image = camera.project(T * Eigen::Vector3d(m.x(), m.y(), bend_m * q.x() * (q.x() + q.y())));
-      const Eigen::Vector2d noise(random.normal(), random.normal());
-      if (image && camera.sees(image->pixel, 5.0)) corners.push_back({i, image->pixel + kNoise_px * noise});
-    }
-    if (std::ssize(corners) == board.size()) views.push_back(std::move(corners));
-  }
-  return views;
+  return simulated::photograph(chessboard(), true_camera(), count, {},
+                               {.noise_px = kNoise_px, .bend_m = {bend_m, bend_m, 0.0}}, random);
 }
 
 TEST(TwoCameras, OfTheSameMakeAreToldApartViewByView) {
@@ -131,6 +117,14 @@ TEST(TwoCameras, AreNotSeenInViewsWithCornersFoundWrongly) {
   auto views = photograph(chessboard(), true_camera(), 15, kNoise_px, 5);
   for (const std::size_t i : {2U, 7U, 11U}) views[i][10 + i].pixel.x() += 12.0;
   EXPECT_FALSE(find_two_cameras(chessboard(), named(views)));
+}
+
+TEST(TwoCameras, AreLikelierTheLargerTheContrast) {
+  const auto one = named(photograph(chessboard(), true_camera(), 12, kNoise_px, 8));
+  const auto split = find_two_cameras(chessboard(), one, 0.0);
+  ASSERT_TRUE(split);
+  EXPECT_LT(split->contrast, kContrast);
+  EXPECT_FALSE(find_two_cameras(chessboard(), one, 1.01 * split->contrast));
 }
 
 TEST(TwoCameras, NeedThreeViewsEach) {

@@ -227,7 +227,8 @@ TwoCameras::Group group_of(const Task& task, const Split& split, bool side) {
 
 }  // namespace
 
-std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<View>& views) {
+std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<View>& views,
+                                           double least_contrast) {
   Task task{.board = board, .all = views, .places = to_split(views), .size = {}};
   if (task.count() < 2 * kLeastViews) return std::nullopt;
   task.size = task.view(0).size;
@@ -236,7 +237,7 @@ std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector
   const auto one = task.fit(all);
   const auto split = one ? best_split(task, *one) : std::nullopt;
   const auto contrast = split ? contrast_of(task, *one, *split) : std::nullopt;
-  if (!contrast || *contrast < kContrast) return std::nullopt;
+  if (!contrast || *contrast < least_contrast) return std::nullopt;
   return TwoCameras{.groups = {group_of(task, *split, false), group_of(task, *split, true)},
                     .together_px = one->rms_px,
                     .contrast = *contrast};

@@ -19,6 +19,10 @@ struct TwoCameras {
   double contrast = 0.0;        ///< see find_two_cameras()
 };
 
+/// From this contrast on the views are of two cameras. Simulated sets of one camera, with boards that are
+/// bent or flex, rolling shutters or lenses outside the model, stay below: `waymark-figures cameras`.
+inline constexpr double kContrast = 1.0;
+
 /// The split of the views, used ones and outliers, into two groups that two cameras fit best, where it says
 /// more than splits of one camera's views do; at least kLeastViews are in each.
 ///
@@ -31,15 +35,12 @@ struct TwoCameras {
 /// lens that the model does not have), and an F-test with the noise of corners knows nothing of that. So what
 /// the split gains is held against what it costs each group that its camera moves when views are left out
 /// (the jackknife of HeldOut, as a sum of squares): contrast = gain / mean cost / views. It does not grow
-/// with the number of views, and reaches kContrast for two cameras; docs/calibration.md says how often it is
-/// wrong.
+/// with the number of views, and reaches kContrast for two cameras (`least_contrast` is for studies of it);
+/// docs/calibration.md says how often it is wrong.
 ///
 /// The lens has four terms, whatever the views support: a fifth makes groups of few views too loose.
 /// Some 30 fits for every start: 0.3 s for 15 views of 54 corners, 3 s for 100.
-[[nodiscard]] std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<View>& views);
-
-/// Of 1156 simulated sets of one camera, most of them with boards that are bent or flex, rolling shutters or
-/// lenses outside the model, none has more than 0.91.
-inline constexpr double kContrast = 1.0;
+[[nodiscard]] std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<View>& views,
+                                                         double least_contrast = kContrast);
 
 }  // namespace waymark::calibrate
