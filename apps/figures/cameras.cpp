@@ -135,7 +135,8 @@ bool is_exact(const TwoCameras& split, const std::vector<bool>& is_other) {
 
 /// What became of one set.
 struct Outcome {
-  double contrast = 0.0;  ///< 0 where no two groups give a camera each
+  double contrast = 0.0;     ///< 0 where no two groups give a camera each
+  double together_px = 0.0;  ///< RMS by one camera
   bool is_exact = false;
 };
 
@@ -146,7 +147,7 @@ Outcome split(const Scene& scene, int seed) {
   if (!calibration) return {};
   const auto found = find_two_cameras(calibration->board, calibration->views, 0.0);
   if (!found) return {};
-  return {found->contrast, is_exact(*found, photographs.is_other)};
+  return {found->contrast, found->together_px, is_exact(*found, photographs.is_other)};
 }
 
 std::vector<Outcome> split_all(const Scene& scene, int seeds) {
@@ -157,33 +158,55 @@ std::vector<Outcome> split_all(const Scene& scene, int seeds) {
 
 bool is_found(const Outcome& outcome) { return outcome.contrast >= kContrast; }
 
-/// `exact`: as well how many were split exactly.
-void print(const std::string& name, const std::vector<Outcome>& outcomes, bool exact) {
-  const auto smallest_and_largest = std::ranges::minmax(outcomes, {}, &Outcome::contrast);
-  fmt::print("{:<36}{:>6}{:>8}{:>10.2f}{:>10.2f}", name, outcomes.size(),
-             std::ranges::count_if(outcomes, is_found), smallest_and_largest.min.contrast,
-             smallest_and_largest.max.contrast);
-  if (exact)
-    fmt::print("{:>8}", std::ranges::count_if(
-                            outcomes, [](const Outcome& one) { return is_found(one) && one.is_exact; }));
-  fmt::print("\n");
+double largest_not_found(const std::vector<Outcome>& outcomes) {
+  double largest = 0.0;
+  for (const Outcome& one : outcomes)
+    if (!is_found(one)) largest = std::max(largest, one.contrast);
+  return largest;
+}
+
+void print(const std::string& name, const std::vector<Outcome>& outcomes) {
+  fmt::print("{:<36}{:>6}{:>8}{:>12.2f}{:>12.2f}", name, outcomes.size(),
+             std::ranges::count_if(outcomes, is_found),
+             std::ranges::max(outcomes, {}, &Outcome::contrast).contrast, largest_not_found(outcomes));
+}
+
+/// Which sets of one camera were taken for two.
+void print_found(const std::vector<Outcome>& outcomes) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (is_found(outcomes[i]))
+      fmt::print("    set {}: contrast {:.2f}, RMS {:.2f} px by one camera\n", i + 1, outcomes[i].contrast,
+                 outcomes[i].together_px);
 }
 
 void print_one_camera(const char* errors, const std::vector<Scene>& scenes, int seeds) {
   std::vector<Outcome> all;
   for (const Scene& scene : scenes) {
     const auto outcomes = split_all(scene, seeds);
-    print(scene.name, outcomes, false);
+    print(scene.name, outcomes);
+    fmt::print("\n");
+    print_found(outcomes);
     all.insert(all.end(), outcomes.begin(), outcomes.end());
   }
-  print(errors, all, false);
+  print(errors, all);
+  fmt::print("\n");
+}
+
+void print_two_cameras(const std::vector<Scene>& scenes, int seeds) {
+  for (const Scene& scene : scenes) {
+    const auto outcomes = split_all(scene, seeds);
+    print(scene.name, outcomes);
+    fmt::print("{:>8}\n", std::ranges::count_if(
+                              outcomes, [](const Outcome& one) { return is_found(one) && one.is_exact; }));
+  }
 }
 
 void cameras(int seeds) {
-  fmt::print("{:<36}{:>6}{:>8}{:>10}{:>10}{:>8}\n", "photographs", "sets", "found", "least", "most", "exact");
+  fmt::print("{:<36}{:>6}{:>8}{:>12}{:>12}{:>8}\n", "contrast", "sets", "found", "largest", "not found",
+             "exact");
   print_one_camera("one camera, errors independent", with_independent_errors(), seeds);
   print_one_camera("one camera, errors in common", with_common_errors(), seeds);
-  for (const Scene& scene : of_two_cameras()) print(scene.name, split_all(scene, seeds), true);
+  print_two_cameras(of_two_cameras(), seeds);
 }
 
 }  // namespace

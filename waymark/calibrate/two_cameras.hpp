@@ -19,8 +19,8 @@ struct TwoCameras {
   double contrast = 0.0;        ///< see find_two_cameras()
 };
 
-/// From this contrast on the views are of two cameras. Simulated sets of one camera, with boards that are
-/// bent or flex, rolling shutters or lenses outside the model, stay below: `waymark-figures cameras`.
+/// From this contrast on the views are of two cameras. `waymark-figures cameras` prints how often simulated
+/// sets reach it: of one camera (bent and flexing boards, rolling shutters, other lenses), and of two.
 inline constexpr double kContrast = 1.0;
 
 /// The split of the views, used ones and outliers, into two groups that two cameras fit best, where it says
