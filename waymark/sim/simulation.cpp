@@ -20,7 +20,8 @@ constexpr double kEventsMax = 1e7;
 // A filter must not believe in a sensor without any noise.
 constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
-// What the exposure of a driving camera leaves of its direction, measured in rendered rooms.
+// What the exposure of a driving camera leaves of its direction in rendered rooms, away from the ends of
+// turns.
 constexpr double kMountSigma_deg = 6e-3;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
