@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(
   g++ cmake ninja-build pkg-config ccache
-  libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
+  libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libyaml-cpp-dev nlohmann-json3-dev
   libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev libnlopt-dev
   libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev libapriltag-dev
 )
