@@ -35,7 +35,7 @@ build ci
 step "tests and examples"
 check ci
 step "pages"
-npm test --prefix web --if-present
+npm test --prefix web
 step "address and undefined-behaviour sanitizers"
 targets=()
 for folder in "${sanitized[@]}"; do
