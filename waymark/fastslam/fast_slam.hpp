@@ -51,8 +51,8 @@ struct FastSlamOptions {
 
 void describe(Schema& schema, FastSlamOptions& options);
 
-/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over sightings of 2-D landmarks with known identities,
-/// by range and bearing, range alone or bearing alone. Motion is collected until something is seen, then
+/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over sightings of 2-D landmarks, with identities or
+/// without, by range and bearing, range alone or bearing alone. Motion is collected until something is seen, then
 /// every particle draws from it. docs/fastslam.md has the equations.
 ///
 /// Given a particle's path the pose of a first sighting is exactly known. So a landmark of which only the
