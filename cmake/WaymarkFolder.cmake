@@ -14,10 +14,11 @@ endfunction()
 #   SOURCES <files...>
 #   DEPENDS <folders before this one...>
 #   LIBRARIES <imported targets that the headers need...>
-#   PRIVATE_LIBRARIES <imported targets that only the sources need...>)
+#   PRIVATE_LIBRARIES <imported targets that only the sources need...>
+#   BATCH <number of files>)
 # Makes the library waymark_<name>, known as waymark::<name>.
 function(waymark_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
   waymark_check_arguments("waymark_folder(${name})")
   waymark_check_order(${name} "${arg_DEPENDS}")
 
@@ -34,29 +35,32 @@ function(waymark_folder name)
   list(TRANSFORM arg_DEPENDS PREPEND waymark:: OUTPUT_VARIABLE folders)
   target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
   waymark_warnings(${target})
+  waymark_batch(${target} "${arg_BATCH}")
   waymark_record_reach(${name} "${arg_DEPENDS}")
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
 endfunction()
 
-# waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...>)
+# waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...> BATCH <number of files>)
 # A program that lands at the top of the build tree; its target is waymark_program_<name>.
 function(waymark_program name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES")
   waymark_check_arguments("waymark_program(${name})")
   set(target waymark_program_${name})
   add_executable(${target} ${arg_SOURCES})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+  waymark_batch(${target} "${arg_BATCH}")
   waymark_link(${target} "${arg_DEPENDS}" "${arg_LIBRARIES}")
 endfunction()
 
-# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...>)
+# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files>)
 # One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>.
 function(waymark_test folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FILES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES")
   waymark_check_arguments("waymark_test(${folder})")
   set(target waymark_${folder}_test)
   add_executable(${target} ${arg_FILES})
+  waymark_batch(${target} "${arg_BATCH}")
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
   gtest_discover_tests(
     ${target}
@@ -72,6 +76,15 @@ function(waymark_bench folder)
   set(target waymark_${folder}_bench)
   add_executable(${target} ${arg_FILES})
   waymark_link(${target} "${folder}" "benchmark::benchmark_main;${arg_LIBRARIES}")
+endfunction()
+
+# Where CMAKE_UNITY_BUILD is on, so many files of the target go to the compiler at once, which reads what they all include
+# only once. Larger batches are quicker; more than the number given would take the compiler over 700 MB.
+function(waymark_batch target files)
+  if(NOT files)
+    set(files 8)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 
 # Links a program with those of the named folders that exist, and with other targets.

@@ -3,6 +3,7 @@
 option(WAYMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(WAYMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(WAYMARK_BUILD_BENCH "Build the micro-benchmarks" OFF)
+option(WAYMARK_BUILD_FIGURES "Build waymark-figures, which prints the figures of docs/results.md" OFF)
 option(WAYMARK_BUILD_EXAMPLES "Test that the examples build and run against the installed library" ON)
 option(WAYMARK_WITH_OPENCV "Find ArUco markers in pictures, by OpenCV where it is installed" ON)
 option(WAYMARK_WITH_APRILTAG "Find AprilTags in pictures, by libapriltag where it is installed" ON)
@@ -19,6 +20,13 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# Sources wait for those of other folders only where they include what is generated there.
+set(CMAKE_OPTIMIZE_DEPENDENCIES ON)
+
+# The libraries also go into modules that are loaded at run time.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Nobody replaces single functions of a library that is loaded: they may be inlined.
+add_compile_options(-fno-semantic-interposition)
 
 # The compiler must not fuse a*b+c where the machine can: the same input gives the same bits everywhere.
 add_compile_options(-ffp-contract=off)

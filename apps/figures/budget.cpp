@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kRoom = "sim:room";
 constexpr std::array kParts{1.0, 0.5, 0.2, 0.1};  // of the work that a run would like to do
 
-struct Request {
+struct BudgetRequest {
   double minutes = 10.0;
   double budget_ms = 5.0;
   int seeds = 8;
@@ -56,7 +56,7 @@ class BusyCore {
 };
 
 /// Minutes of pictures by the clock, with every frame that took longer than it may.
-Result<void> keep_to_the_clock(const Request& request) {
+Result<void> keep_to_the_clock(const BudgetRequest& request) {
   constexpr double kShortestLap_s = 40.0;
   const int laps = static_cast<int>(std::ceil(60.0 * request.minutes / kShortestLap_s));
   const auto opened =
@@ -82,7 +82,7 @@ struct Drive {
   std::vector<Event> events;
 };
 
-Result<Drive> render(const Request& request, int seed) {
+Result<Drive> render(const BudgetRequest& request, int seed) {
   auto opened = open_input(kRoom, request.with({fmt::format("seed={}", seed), "tracker.budget=work"}));
   if (!opened) return opened.error();
   Drive drive{opened->source->info(), opened->config, {}};
@@ -94,12 +94,12 @@ Result<Drive> render(const Request& request, int seed) {
   }
 }
 
-struct Run {
+struct BudgetRun {
   double rmse_m = NAN;
   double hurried = NAN;  ///< part of the pictures in which something was left out
 };
 
-Run run(const Drive& drive, double budget_ms) {
+BudgetRun run(const Drive& drive, double budget_ms) {
   Config config = drive.config;
   config.tracker.budget.per_frame_ms = budget_ms;
   EventList source(drive.info, drive.events);
@@ -125,12 +125,12 @@ double wanted_ms(const Drive& drive) {
 }
 
 /// The same drives with the work that they would like to do, and with less.
-Result<void> starve(const Request& request) {
+Result<void> starve(const BudgetRequest& request) {
   const auto first = render(request, 1);
   if (!first) return first.error();
   const double wanted = wanted_ms(*first);
-  std::array<std::vector<Run>, kParts.size()> runs;
-  runs.fill(std::vector<Run>(static_cast<std::size_t>(request.seeds)));
+  std::array<std::vector<BudgetRun>, kParts.size()> runs;
+  runs.fill(std::vector<BudgetRun>(static_cast<std::size_t>(request.seeds)));
   for_all_runs(request.seeds, [&](int i) {
     const auto drive = render(request, i + 1);
     for (std::size_t part = 0; drive && part < kParts.size(); ++part)
@@ -141,13 +141,14 @@ Result<void> starve(const Request& request) {
              "median", "against wanted", "");
   for (std::size_t part = 0; part < kParts.size(); ++part)
     fmt::print("{:<12}{:>12.3f}{:>14.1f}{:>10.3f}{:>10.3f}{:>16.2f}{:>10.2f}\n", kParts[part],
-               kParts[part] * wanted, 100.0 * mean(runs[part], &Run::hurried), mean(runs[part], &Run::rmse_m),
-               median(runs[part], &Run::rmse_m), mean(runs[part], &Run::rmse_m) / mean(runs[0], &Run::rmse_m),
-               median(runs[part], &Run::rmse_m) / median(runs[0], &Run::rmse_m));
+               kParts[part] * wanted, 100.0 * mean(runs[part], &BudgetRun::hurried),
+               mean(runs[part], &BudgetRun::rmse_m), median(runs[part], &BudgetRun::rmse_m),
+               mean(runs[part], &BudgetRun::rmse_m) / mean(runs[0], &BudgetRun::rmse_m),
+               median(runs[part], &BudgetRun::rmse_m) / median(runs[0], &BudgetRun::rmse_m));
   return {};
 }
 
-int budget(const Request& request) {
+int budget(const BudgetRequest& request) {
   for (const auto& part : {keep_to_the_clock, starve}) {
     const auto done = part(request);
     if (!done) fmt::print(stderr, "{}\n", done.error().message);
@@ -161,7 +162,7 @@ int budget(const Request& request) {
 void add_budget(CLI::App& app, int& status) {
   auto* command =
       app.add_subcommand("budget", "pictures against the clock, and with less time than they want");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<BudgetRequest>();
   command->add_option("--minutes", request->minutes, "of pictures against the clock")
       ->check(CLI::PositiveNumber);
   command->add_option("--budget-ms", request->budget_ms, "of a picture")->check(CLI::PositiveNumber);

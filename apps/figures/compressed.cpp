@@ -23,7 +23,7 @@ constexpr double kRangeSigma_m = 0.05;
 constexpr double kBearingSigma_rad = 0.02;
 constexpr double kRowSpacing_m = 9.0;
 
-struct Frame {
+struct Look {
   Motion motion;
   std::vector<Observation> scan;
 };
@@ -43,9 +43,9 @@ class Field {
   [[nodiscard]] const Pose2& truth() const { return truth_; }
   [[nodiscard]] Pose2 start() const { return {kRange_m, kRange_m, 0.0}; }
 
-  Frame next() {
+  Look next() {
     const double step_m = mapped() ? 0.05 : 0.25;
-    Frame frame{move(step_m), {}};
+    Look frame{move(step_m), {}};
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       if ((landmarks_[i] - truth_.position()).norm() < kRange_m) frame.scan.push_back(sight(i));
     }
@@ -92,7 +92,7 @@ class Field {
   std::size_t next_ = 0;
 };
 
-void advance(EkfSlam& filter, const Frame& frame) {
+void advance(EkfSlam& filter, const Look& frame) {
   filter.predict(frame.motion);
   filter.correct(frame.scan);
 }
@@ -115,7 +115,7 @@ Cost measure(int landmarks, Compress compressed, int steps, int threads) {
   const int regions_before = filter.state().closed_regions();
   Cost cost;
   for (int i = 0; i < steps; ++i) {
-    const Frame frame = field.next();
+    const Look frame = field.next();
     cost.sightings += static_cast<double>(frame.scan.size()) / steps;
     const Duration before = thread_cpu_time();
     advance(filter, frame);
@@ -156,7 +156,7 @@ void compare(const char* name, ekf::Consistency consistency, Compress compressed
   double nees_local = 0.0;
   for (int i = 0; i < steps;) {
     i += field.mapped() ? 1 : 0;
-    Frame frame = field.next();
+    Look frame = field.next();
     advance(whole, frame);
     if (compressed == Compress::kNever) std::ranges::reverse(frame.scan);
     advance(local, frame);

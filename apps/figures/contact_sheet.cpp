@@ -15,7 +15,7 @@
 namespace waymark {
 namespace {
 
-struct Request {
+struct SheetRequest {
   std::string input;
   std::string picture;
   int images = 8;
@@ -25,7 +25,7 @@ struct Request {
 
 /// Calls look(number, image) for every image of the log.
 template <class Look>
-Result<void> for_each_image(const Request& request, const Look& look) {
+Result<void> for_each_image(const SheetRequest& request, const Look& look) {
   auto opened = open_input(request.input, {{}, request.settings});
   if (!opened) return opened.error();
   ImageLoader source(std::move(opened->source));
@@ -43,7 +43,7 @@ void paste(const GreyImage& image, int left, int top, GreyImage& sheet) {
     for (int u = 0; u < width; ++u) sheet(left + u, top + v) = image(u, v);
 }
 
-Result<void> write_sheet(const Request& request) {
+Result<void> write_sheet(const SheetRequest& request) {
   int count = 0;
   if (auto done = for_each_image(request, [&](int, const GreyImage&) { ++count; }); !done) return done;
   if (count < request.images)
@@ -62,7 +62,7 @@ Result<void> write_sheet(const Request& request) {
   return write_png(request.picture, sheet);
 }
 
-int make_sheet(const Request& request) {
+int make_sheet(const SheetRequest& request) {
   const auto done = write_sheet(request);
   if (!done) fmt::print(stderr, "{}\n", done.error().message);
   return done ? 0 : 1;
@@ -71,7 +71,7 @@ int make_sheet(const Request& request) {
 }  // namespace
 
 void add_contact_sheet(CLI::App& app, int& status) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<SheetRequest>();
   auto* command = app.add_subcommand("sheet", "images of a log side by side in one picture");
   command->add_option("input", request->input, "a log, or sim:SCENARIO")->required();
   command->add_option("picture", request->picture, "PNG file to write")->required();

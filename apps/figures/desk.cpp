@@ -34,7 +34,7 @@ constexpr double kAgreement_px = 1.5;
 constexpr int kTrail = 15;     // pictures over which a place is drawn
 constexpr int kLongLife = 30;  // pictures: one second
 
-struct Request {
+struct DeskRequest {
   std::string folder;
   std::string drawing;
   int frames = 100000;
@@ -151,10 +151,10 @@ class Follower {
   Eigen::Vector2d motion_ = Eigen::Vector2d::Zero();  ///< of the picture as a whole
 };
 
-std::size_t sum(const std::vector<Frame>& frames, std::size_t Frame::*member) {
-  std::size_t total = 0;
-  for (const Frame& frame : frames) total += frame.*member;
-  return total;
+std::size_t total(const std::vector<Frame>& frames, std::size_t Frame::*member) {
+  std::size_t all = 0;
+  for (const Frame& frame : frames) all += frame.*member;
+  return all;
 }
 
 double median_us(const std::vector<Frame>& frames, Duration Frame::*member) {
@@ -196,21 +196,22 @@ void print(const Follower& follower) {
   const auto& frames = follower.frames();
   std::vector<double> corners;
   for (const Frame& frame : frames) corners.push_back(static_cast<double>(frame.corners));
-  const std::size_t found = sum(frames, &Frame::found);
+  const std::size_t found = total(frames, &Frame::found);
   fmt::print("{} pictures, {} patches; FAST-12 corners per picture, median {:.0f}\n", frames.size(),
              follower.patches().size(), eval::median(corners).value_or(NAN));
   fmt::print("found in the picture after: {:.1f} % of {} new patches, {:.1f} % of all {} looked for\n",
-             percent(sum(frames, &Frame::young_found), sum(frames, &Frame::young)),
-             sum(frames, &Frame::young), percent(found, sum(frames, &Frame::sought)),
-             sum(frames, &Frame::sought));
+             percent(total(frames, &Frame::young_found), total(frames, &Frame::young)),
+             total(frames, &Frame::young), percent(found, total(frames, &Frame::sought)),
+             total(frames, &Frame::sought));
   fmt::print("within {} px of one homography from picture to picture: {:.1f} % of those found\n",
-             kAgreement_px, percent(sum(frames, &Frame::agreeing), found));
+             kAgreement_px, percent(total(frames, &Frame::agreeing), found));
   fmt::print("followed without a gap: median {:.0f} pictures; {:.0f} % for {} or more, {:.0f} % for {}\n",
              median_life(follower), lived_percent(follower, kLongLife), kLongLife,
              lived_percent(follower, 3 * kLongLife), 3 * kLongLife);
   Duration matching{0};
   for (const Frame& frame : frames) matching += frame.matching_took;
-  const double per_search_us = 1e6 * to_seconds(matching) / static_cast<double>(sum(frames, &Frame::sought));
+  const double per_search_us =
+      1e6 * to_seconds(matching) / static_cast<double>(total(frames, &Frame::sought));
   const double windows = vision::Search().expected_windows(desk_prediction_covariance());
   fmt::print("\n{:<44}{:>10}{:>12}{:>10}\n", "thread CPU per picture, median, us", "here", "article",
              "times");
@@ -291,7 +292,7 @@ Result<std::string> draw(const Follower& follower, const std::vector<fs::path>& 
   return svg + "</svg>\n";
 }
 
-Result<void> follow_over(const Request& request) {
+Result<void> follow_over(const DeskRequest& request) {
   auto files = desk_pictures(request.folder);
   if (!files) return files.error();
   files->resize(std::min(files->size(), static_cast<std::size_t>(request.frames)));
@@ -310,7 +311,7 @@ Result<void> follow_over(const Request& request) {
   return drawing ? write_file(request.drawing, *drawing) : Result<void>(drawing.error());
 }
 
-int desk(const Request& request) {
+int desk(const DeskRequest& request) {
   const auto done = follow_over(request);
   if (!done) fmt::print(stderr, "{}\n", done.error().message);
   return done ? 0 : 1;
@@ -320,7 +321,7 @@ int desk(const Request& request) {
 
 void add_desk(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("desk", "corners and patches in pictures of a hand-held camera");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<DeskRequest>();
   command->add_option("folder", request->folder, "monoslam-desk: a folder with pictures in frames/")
       ->required();
   command->add_option("--frames", request->frames, "use so many")->check(CLI::Range(2, 100000));

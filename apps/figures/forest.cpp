@@ -18,7 +18,7 @@
 namespace waymark {
 namespace {
 
-struct Request {
+struct ForestRequest {
   std::string filter = "fastslam";
   std::string associate;
   int seeds = 50;
@@ -31,7 +31,7 @@ struct Request {
 };
 
 /// What is kept of one run. Landmarks are matched with the nearest, whether they have names or not.
-struct Run {
+struct ForestRun {
   double rmse_m = NAN;
   double aligned_rmse_m = NAN;
   double dead_reckoning_rmse_m = NAN;
@@ -45,8 +45,8 @@ struct Run {
 };
 
 struct Pair {
-  Run known;
-  Run unknown;
+  ForestRun known;
+  ForestRun unknown;
 };
 
 using Sightings = std::map<LandmarkId, int>;
@@ -54,7 +54,7 @@ using Sightings = std::map<LandmarkId, int>;
 /// Trunks as far apart, and a path as far from the edge, as in the field of 30 m.
 constexpr double kPathInside_m = 6.0;
 
-std::vector<std::string> settings_for(const Request& request, int seed, bool identities) {
+std::vector<std::string> settings_for(const ForestRequest& request, int seed, bool identities) {
   std::vector<std::string> settings{"filter=" + request.filter, fmt::format("seed={}", seed),
                                     fmt::format("fastslam.particles={}", request.particles),
                                     fmt::format("sim.identities={}", identities)};
@@ -69,7 +69,7 @@ std::vector<std::string> settings_for(const Request& request, int seed, bool ide
   return settings;
 }
 
-std::optional<RunResult> run(const Request& request, int seed, bool identities) {
+std::optional<RunResult> run(const ForestRequest& request, int seed, bool identities) {
   auto result = run_log("sim:forest", {{}, settings_for(request, seed, identities)});
   if (!result) fmt::print(stderr, "seed {}: {}\n", seed, result.error().message);
   return result && result->evaluation ? std::optional(std::move(*result)) : std::nullopt;
@@ -82,7 +82,7 @@ Sightings count_sightings(const RunResult& known) {
   return sightings;
 }
 
-void count_landmarks(Run& kept, const RunResult& result, const Sightings& sightings, int least) {
+void count_landmarks(ForestRun& kept, const RunResult& result, const Sightings& sightings, int least) {
   const eval::Evaluation& e = *result.evaluation;
   if (!e.fit) return;
   const auto map = result.recording.filter->snapshot().landmarks;
@@ -103,9 +103,9 @@ void count_landmarks(Run& kept, const RunResult& result, const Sightings& sighti
   if (error) kept.landmark_rmse_m = error->rmse_m.value_or(NAN);
 }
 
-Run keep(const RunResult& result, const Sightings& sightings, int least) {
+ForestRun keep(const RunResult& result, const Sightings& sightings, int least) {
   const eval::Evaluation& e = *result.evaluation;
-  Run kept;
+  ForestRun kept;
   kept.rmse_m = e.path.position_rmse_m.value_or(NAN);
   kept.aligned_rmse_m = e.path.position_rmse_aligned_m.value_or(NAN);
   kept.dead_reckoning_rmse_m = e.odometry.position_rmse_m.value_or(NAN);
@@ -115,7 +115,7 @@ Run keep(const RunResult& result, const Sightings& sightings, int least) {
   return kept;
 }
 
-Pair run_both(const Request& request, int seed) {
+Pair run_both(const ForestRequest& request, int seed) {
   const auto known = run(request, seed, true);
   const auto unknown = run(request, seed, false);
   if (!known || !unknown) return {};
@@ -123,19 +123,20 @@ Pair run_both(const Request& request, int seed) {
   return {keep(*known, sightings, request.sightings), keep(*unknown, sightings, request.sightings)};
 }
 
-void print_row(const char* name, const std::vector<Run>& runs) {
+void print_row(const char* name, const std::vector<ForestRun>& runs) {
   fmt::print("{:<9}{:>8.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>9.3f}{:>8.3f}{:>8.1f}{:>11.2f}{:>9.2f}{:>9.0f}{:>10}\n",
-             name, mean(runs, &Run::rmse_m), median(runs, &Run::rmse_m), mean(runs, &Run::aligned_rmse_m),
-             median(runs, &Run::aligned_rmse_m), mean(runs, &Run::landmark_rmse_m),
-             median(runs, &Run::landmark_rmse_m), median(runs, &Run::nees_median),
-             100.0 * sum(runs, &Run::spurious) / sum(runs, &Run::map),
-             100.0 * sum(runs, &Run::missed) / sum(runs, &Run::seen), mean(runs, &Run::step_us),
-             count_diverged(runs));
+             name, mean(runs, &ForestRun::rmse_m), median(runs, &ForestRun::rmse_m),
+             mean(runs, &ForestRun::aligned_rmse_m), median(runs, &ForestRun::aligned_rmse_m),
+             mean(runs, &ForestRun::landmark_rmse_m), median(runs, &ForestRun::landmark_rmse_m),
+             median(runs, &ForestRun::nees_median),
+             100.0 * sum(runs, &ForestRun::spurious) / sum(runs, &ForestRun::map),
+             100.0 * sum(runs, &ForestRun::missed) / sum(runs, &ForestRun::seen),
+             mean(runs, &ForestRun::step_us), count_diverged(runs));
 }
 
-void print_table(const Request& request) {
-  std::vector<Run> known(static_cast<std::size_t>(request.seeds));
-  std::vector<Run> unknown(known.size());
+void print_table(const ForestRequest& request) {
+  std::vector<ForestRun> known(static_cast<std::size_t>(request.seeds));
+  std::vector<ForestRun> unknown(known.size());
   for_all_runs(request.seeds, [&](int i) {
     const Pair pair = run_both(request, i + 1);
     known[static_cast<std::size_t>(i)] = pair.known;
@@ -149,17 +150,17 @@ void print_table(const Request& request) {
   print_row("known", known);
   print_row("unknown", unknown);
   fmt::print("unknown against known, position: mean {:.2f}, median {:.2f}\n",
-             mean(unknown, &Run::rmse_m) / mean(known, &Run::rmse_m),
-             median(unknown, &Run::rmse_m) / median(known, &Run::rmse_m));
+             mean(unknown, &ForestRun::rmse_m) / mean(known, &ForestRun::rmse_m),
+             median(unknown, &ForestRun::rmse_m) / median(known, &ForestRun::rmse_m));
   fmt::print("missed counts trunks with {} sightings or more: {:.1f} of a run's\n", request.sightings,
-             mean(known, &Run::seen));
+             mean(known, &ForestRun::seen));
 }
 
 }  // namespace
 
 void add_forest(CLI::App& app) {
   auto* command = app.add_subcommand("forest", "a filter without identities and with them");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ForestRequest>();
   command->add_option("--filter", request->filter)->check(CLI::IsMember({"ekf", "fastslam"}));
   command->add_option("--associate", request->associate, "how it does without identities");
   command->add_option("--trunks", request->trunks)->check(CLI::PositiveNumber);

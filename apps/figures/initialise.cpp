@@ -43,7 +43,7 @@ const std::array<Vector3d, 4> kTarget{
     {{0.13477, 0.04074, 0.0}, {-0.04632, 0.04324, 0.0}, {0.13555, -0.08827, 0.0}, {-0.04969, -0.08697, 0.0}}};
 constexpr double kStart_m = -0.60;
 
-struct Request {
+struct InitialiseRequest {
   std::string folder;
   std::string drawing;
 };
@@ -322,13 +322,13 @@ std::vector<Glance> chosen(const Candidate& candidate) {
 }
 
 Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& files) {
-  constexpr int kStep = kTile_px * kMagnified + 6, kRow = kTile_px * kMagnified + 26;
+  constexpr int kPitch_px = kTile_px * kMagnified + 6, kRow = kTile_px * kMagnified + 26;
   std::vector<const Candidate*> strips;
   for (const Candidate& candidate : all.candidates())
     if (candidate.end != Candidate::End::kUnderWay && candidate.glances.size() >= 4)
       strips.push_back(&candidate);
   strips.resize(std::min(strips.size(), static_cast<std::size_t>(kStrips)));
-  const int width = kTilesInAStrip * kStep + 10, height = static_cast<int>(strips.size()) * kRow + 10;
+  const int width = kTilesInAStrip * kPitch_px + 10, height = static_cast<int>(strips.size()) * kRow + 10;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
       "font-size=\"11\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
@@ -342,7 +342,7 @@ Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& fi
       svg += fmt::format(
           "<g transform=\"translate({},{})\">{}<text y=\"{}\">picture {}: {:.2f} &#177; {:.2f} "
           "m</text></g>\n",
-          10 + column * kStep, 10 + row * kRow, *tile, kTile_px * kMagnified + 13, glance.picture,
+          10 + column * kPitch_px, 10 + row * kRow, *tile, kTile_px * kMagnified + 13, glance.picture,
           glance.depth_m.mean, glance.depth_m.sigma);
       ++column;
     }
@@ -351,7 +351,7 @@ Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& fi
   return svg + "</svg>\n";
 }
 
-Result<void> initialise_over(const Request& request) {
+Result<void> initialise_over(const InitialiseRequest& request) {
   const auto files = desk_pictures(request.folder);
   if (!files) return files.error();
   const auto first = read_image(files->front());
@@ -375,7 +375,7 @@ Result<void> initialise_over(const Request& request) {
   return drawing ? write_file(request.drawing, *drawing) : Result<void>(drawing.error());
 }
 
-int initialise(const Request& request) {
+int initialise(const InitialiseRequest& request) {
   const auto done = initialise_over(request);
   if (!done) fmt::print(stderr, "{}\n", done.error().message);
   return done ? 0 : 1;
@@ -385,7 +385,7 @@ int initialise(const Request& request) {
 
 void add_initialise(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("initialise", "depths of new corners in pictures of a hand-held camera");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<InitialiseRequest>();
   command->add_option("folder", request->folder, "monoslam-desk: a folder with pictures in frames/")
       ->required();
   command->add_option("-o,--output", request->drawing, "draw strips of it as well")->type_name("FILE.svg");

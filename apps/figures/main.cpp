@@ -29,11 +29,11 @@
 namespace waymark {
 namespace {
 
-double mean(const std::vector<double>& values) {
+double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
 }
@@ -96,7 +96,7 @@ std::optional<Score> score_filter(const std::string& input, const std::string& f
     if (!result || !result->evaluation) return std::nullopt;
     scores.push_back(score(*result));
   }
-  return combine(scores, median);
+  return combine(scores, median_of);
 }
 
 /// One filter on several robots of an MRCLAM directory.
@@ -113,7 +113,7 @@ int mrclam(const std::string& folder, int robots, const std::string& filter, int
     robots_scores.push_back(*scored);
     print(std::to_string(robot), *scored);
   }
-  print("mean", combine(robots_scores, mean));
+  print("mean", combine(robots_scores, mean_of));
   return 0;
 }
 
@@ -190,8 +190,8 @@ int study_world(int seeds, const std::vector<std::string>& extra) {
   fmt::print(
       "position RMSE, mean and median over the seeds: EKF {:.3f} {:.3f} m, FastSLAM (150 particles) {:.3f} "
       "{:.3f} m, ratio {:.2f} {:.2f}\n",
-      mean(ekf), median(ekf), mean(fastslam), median(fastslam), mean(fastslam) / mean(ekf),
-      median(fastslam) / median(ekf));
+      mean_of(ekf), median_of(ekf), mean_of(fastslam), median_of(fastslam), mean_of(fastslam) / mean_of(ekf),
+      median_of(fastslam) / median_of(ekf));
   return 0;
 }
 

@@ -17,13 +17,13 @@
 namespace waymark {
 namespace {
 
-struct Request {
+struct MarkersRequest {
   int seeds = 20;
   std::string filter = "ekf";
   std::vector<std::string> settings;
 };
 
-struct Run {
+struct MarkersRun {
   double rmse_m = NAN;
   double dead_reckoning_rmse_m = NAN;
   double landmark_rmse_m = NAN;
@@ -55,54 +55,55 @@ double picture_ms(const Recording& recording) {
   return total_ms / static_cast<double>(std::max<std::int64_t>(1, recording.counts.pictures));
 }
 
-Run drive(const Request& request, int seed) {
+MarkersRun drive(const MarkersRequest& request, int seed) {
   std::vector<std::string> settings{"filter=" + request.filter, fmt::format("seed={}", seed)};
   settings.insert(settings.end(), request.settings.begin(), request.settings.end());
   const auto result = run_log("sim:marker-room", {{}, std::move(settings)});
   if (!result || !result->evaluation || !result->evaluation->map || !result->evaluation->anchor) return {};
   const eval::Evaluation& e = *result->evaluation;
-  Run run{e.path.position_rmse_m.value_or(NAN),
-          e.odometry.position_rmse_m.value_or(NAN),
-          e.map->rmse_anchored_m.value_or(NAN),
-          worst_landmark_m(*result),
-          static_cast<double>(e.map->missed),
-          static_cast<double>(e.map->spurious),
-          e.nees.mean.value_or(NAN),
-          result->metrics.nis_per_dof.value_or(NAN),
-          picture_ms(result->recording),
-          {}};
+  MarkersRun run{e.path.position_rmse_m.value_or(NAN),
+                 e.odometry.position_rmse_m.value_or(NAN),
+                 e.map->rmse_anchored_m.value_or(NAN),
+                 worst_landmark_m(*result),
+                 static_cast<double>(e.map->missed),
+                 static_cast<double>(e.map->spurious),
+                 e.nees.mean.value_or(NAN),
+                 result->metrics.nis_per_dof.value_or(NAN),
+                 picture_ms(result->recording),
+                 {}};
   for (const auto& sample : e.series)
     if (sample.nees) run.nees[sample.stamp] = *sample.nees;
   return run;
 }
 
-double largest(const std::vector<Run>& runs, double Run::*member) {
+double largest(const std::vector<MarkersRun>& runs, double MarkersRun::*member) {
   return (*std::ranges::max_element(runs, {}, member)).*member;
 }
 
-int drive_all(const Request& request) {
-  std::vector<Run> runs(static_cast<std::size_t>(request.seeds));
+int drive_all(const MarkersRequest& request) {
+  std::vector<MarkersRun> runs(static_cast<std::size_t>(request.seeds));
   for_all_runs(request.seeds, [&](int i) { runs[static_cast<std::size_t>(i)] = drive(request, i + 1); });
-  if (std::ranges::any_of(runs, [](const Run& run) { return std::isnan(run.rmse_m); })) {
+  if (std::ranges::any_of(runs, [](const MarkersRun& run) { return std::isnan(run.rmse_m); })) {
     fmt::print(stderr, "sim:marker-room: a run has no result; `waymark run` says why\n");
     return 1;
   }
   std::vector<NeesOverTime> nees;
-  for (const Run& run : runs) nees.push_back(run.nees);
+  for (const MarkersRun& run : runs) nees.push_back(run.nees);
   fmt::print("sim:marker-room, {}, {} seeds\n", request.filter, request.seeds);
   fmt::print("position RMSE, m: mean {:.4f}, largest {:.4f}; dead reckoning {:.2f}\n",
-             mean(runs, &Run::rmse_m), largest(runs, &Run::rmse_m), mean(runs, &Run::dead_reckoning_rmse_m));
+             mean(runs, &MarkersRun::rmse_m), largest(runs, &MarkersRun::rmse_m),
+             mean(runs, &MarkersRun::dead_reckoning_rmse_m));
   fmt::print("markers, m: RMSE mean {:.4f}, farthest of all {:.4f}; missed {}, spurious {}\n",
-             mean(runs, &Run::landmark_rmse_m), largest(runs, &Run::landmark_worst_m),
-             sum(runs, &Run::landmarks_missed), sum(runs, &Run::landmarks_spurious));
+             mean(runs, &MarkersRun::landmark_rmse_m), largest(runs, &MarkersRun::landmark_worst_m),
+             sum(runs, &MarkersRun::landmarks_missed), sum(runs, &MarkersRun::landmarks_spurious));
   fmt::print(
       "pose NEES over a run: mean {:.2f}, median {:.2f}; mean of the runs inside its 99 % band in {:.1f} % "
       "of "
       "the pictures; NIS per dof {:.2f}\n",
-      mean(runs, &Run::nees_mean), median(runs, &Run::nees_mean), 100.0 * part_inside(nees, 0.0, HUGE_VAL),
-      mean(runs, &Run::nis_per_dof));
+      mean(runs, &MarkersRun::nees_mean), median(runs, &MarkersRun::nees_mean),
+      100.0 * part_inside(nees, 0.0, HUGE_VAL), mean(runs, &MarkersRun::nis_per_dof));
   fmt::print("CPU per picture of 640 x 480, detection to filter: {:.1f} ms\n",
-             median(runs, &Run::picture_ms));
+             median(runs, &MarkersRun::picture_ms));
   return 0;
 }
 
@@ -110,7 +111,7 @@ int drive_all(const Request& request) {
 
 void add_markers(CLI::App& app, int& status) {
   auto* command = app.add_subcommand("markers", "markers in rendered rooms, over many drives");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<MarkersRequest>();
   command->add_option("--seeds", request->seeds, "drives")->check(CLI::PositiveNumber);
   command->add_option("--filter", request->filter, "ekf or fastslam");
   command->add_option("--set", request->settings, "config key=value")->allow_extra_args(false);

@@ -21,7 +21,7 @@ struct Suite {
 constexpr std::array kSuites{Suite{"ekf", bench_ekf}, Suite{"fastslam", bench_fastslam},
                              Suite{"camera", bench_camera}};
 
-struct Request {
+struct BenchRequest {
   std::vector<std::string> suites;
   bool quick = false;
   Verbosity verbosity;
@@ -32,7 +32,7 @@ struct Request {
   }
 };
 
-std::string to_text(const nlohmann::ordered_json& params) {
+std::string params_text(const nlohmann::ordered_json& params) {
   std::string text;
   for (const auto& [key, value] : params.items())
     text += fmt::format("{}={} ", key, value.is_string() ? value.get<std::string>() : value.dump());
@@ -43,7 +43,8 @@ void print_text(const Machine& machine, const std::vector<BenchResult>& results)
   fmt::print("{}, {} cores, {}, multiply-add peak {:.1f} GFLOP/s\n", machine.cpu, machine.cores,
              machine.instruction_set, machine.fma_gflops);
   for (const auto& result : results)
-    fmt::print("{:<30}{:<52}{:>12.4g} {}\n", result.name, to_text(result.params), result.value, result.unit);
+    fmt::print("{:<30}{:<52}{:>12.4g} {}\n", result.name, params_text(result.params), result.value,
+               result.unit);
 }
 
 void print_json(const Machine& machine, const std::vector<BenchResult>& results) {
@@ -61,7 +62,7 @@ void print_json(const Machine& machine, const std::vector<BenchResult>& results)
   fmt::print("{}\n", json.dump(2));
 }
 
-Result<void> bench(const Request& request) {
+Result<void> bench(const BenchRequest& request) {
   const Machine machine = inspect_machine();
   std::vector<BenchResult> results;
   for (const Suite& suite : kSuites) {
@@ -79,7 +80,7 @@ Result<void> bench(const Request& request) {
 
 void add_bench(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("bench", "Time the filters on this machine");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<BenchRequest>();
   std::vector<std::string> names;
   for (const Suite& suite : kSuites) names.emplace_back(suite.name);
   command->add_option("suite", request->suites, "which part; without it everything")

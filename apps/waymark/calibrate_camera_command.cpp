@@ -21,7 +21,7 @@ using calibrate::Fate;
 using calibrate::GridSize;
 using calibrate::View;
 
-struct Request {
+struct CalibrateCameraRequest {
   std::vector<std::string> inputs;
   std::string output = "waymark-camera";
   calibrate::BoardRequest board;
@@ -30,7 +30,7 @@ struct Request {
 };
 
 /// The inner corners that most pictures show.
-std::optional<GridSize> guess(const Request& request, const InputOptions& options) {
+std::optional<GridSize> guess(const CalibrateCameraRequest& request, const InputOptions& options) {
   auto pictures = calibrate::open_pictures(request.inputs, options);
   return pictures ? calibrate::guess_chessboard(**pictures) : std::nullopt;
 }
@@ -44,7 +44,7 @@ Error no_chessboard() {
 }
 
 /// The board that was asked for, or the chessboard that the pictures show.
-Result<Board> settle_board(const Request& request, const InputOptions& options) {
+Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOptions& options) {
   auto board = calibrate::make_board(request.board);
   if (!board || board->size() > 0) return board;
   const auto corners = guess(request, options);
@@ -56,7 +56,7 @@ Result<Board> settle_board(const Request& request, const InputOptions& options) 
 }
 
 /// No picture shows the board: what do they show?
-Error no_board(const Request& request, const InputOptions& options, const Board& board,
+Error no_board(const CalibrateCameraRequest& request, const InputOptions& options, const Board& board,
                const std::vector<View>& views) {
   const auto unreadable = std::ranges::find(views, Fate::kUnreadable, &View::fate);
   if (unreadable != views.end() &&
@@ -72,7 +72,8 @@ Error no_board(const Request& request, const InputOptions& options, const Board&
   return {message + "; --corners counts where four squares meet, not the squares"};
 }
 
-Result<std::vector<View>> look(const Request& request, const InputOptions& options, const Board& board) {
+Result<std::vector<View>> look(const CalibrateCameraRequest& request, const InputOptions& options,
+                               const Board& board) {
   auto finder = calibrate::make_board_finder(board);
   if (!finder) return finder.error();
   auto pictures = calibrate::open_pictures(request.inputs, options);
@@ -125,7 +126,7 @@ Result<void> write(const CameraCalibration& result, const std::filesystem::path&
   return write_camera_report({command_line(), result}, folder / "report.html");
 }
 
-Result<void> calibrate_camera(const Request& request) {
+Result<void> calibrate_camera(const CalibrateCameraRequest& request) {
   const auto config = resolve_config(request.flags.settings());
   if (!config) return config.error();
   if (auto pictures = calibrate::open_pictures(request.inputs, config->input); !pictures)
@@ -165,7 +166,7 @@ void add_board(CLI::App& command, calibrate::BoardRequest& board) {
 void add_calibrate_camera(CLI::App& calibrate, Work& work) {
   auto* command = calibrate.add_subcommand(
       "camera", "Focal length, principal point and distortion of a camera, from pictures of a board");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<CalibrateCameraRequest>();
   command
       ->add_option("input", request->inputs,
                    "pictures, folders or patterns of them; or one video, ROS bag or log with images")

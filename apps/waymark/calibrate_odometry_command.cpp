@@ -11,7 +11,7 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct CalibrateOdometryRequest {
   std::string input;
   std::string output = "waymark-calibration";
   TimeSpan span;
@@ -20,7 +20,8 @@ struct Request {
 };
 
 /// One bar for every run over the log.
-Result<calibrate::LogCalibration> calibrate_with_bars(const Request& request, calibrate::Subject subject) {
+Result<calibrate::LogCalibration> calibrate_with_bars(const CalibrateOdometryRequest& request,
+                                                      calibrate::Subject subject) {
   std::optional<ProgressBar> bar;
   int shown = -1;
   return calibrate::calibrate_log(request.input, request.flags.settings(), subject, request.span,
@@ -34,7 +35,7 @@ Result<calibrate::LogCalibration> calibrate_with_bars(const Request& request, ca
                                   });
 }
 
-Result<void> calibrate_from_log(const Request& request, calibrate::Subject subject) {
+Result<void> calibrate_from_log(const CalibrateOdometryRequest& request, calibrate::Subject subject) {
   if (auto made = ensure_output_folder(request.output); !made) return made;
   catch_interrupts();
   const auto calibration = calibrate_with_bars(request, subject);
@@ -50,7 +51,7 @@ Result<void> calibrate_from_log(const Request& request, calibrate::Subject subje
 void add(CLI::App& calibrate, Work& work, const char* name, const char* help, const char* footer,
          calibrate::Subject subject) {
   auto* command = calibrate.add_subcommand(name, help);
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CalibrateOdometryRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();

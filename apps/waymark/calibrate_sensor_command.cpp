@@ -11,7 +11,7 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct CalibrateSensorRequest {
   std::string input;
   std::string places;
   std::string output = "waymark-calibration";
@@ -20,7 +20,7 @@ struct Request {
 };
 
 /// Of a robot that moves among landmarks.
-Result<calibrate::MovingStudy> from_log(const Request& request) {
+Result<calibrate::MovingStudy> from_log(const CalibrateSensorRequest& request) {
   ProgressBar bar("run after run", request.verbosity);
   return calibrate::study_moving(request.input, request.flags.settings(), [&bar](double fraction) {
     bar.show(fraction);
@@ -29,7 +29,7 @@ Result<calibrate::MovingStudy> from_log(const Request& request) {
 }
 
 /// Of a sensor before landmarks at known places.
-Result<calibrate::StaticStudy> from_places(const Request& request) {
+Result<calibrate::StaticStudy> from_places(const CalibrateSensorRequest& request) {
   const auto places = calibrate::read_places(request.places);
   if (!places) return places.error();
   ProgressBar bar("recordings", request.verbosity);
@@ -41,7 +41,7 @@ Result<calibrate::StaticStudy> from_places(const Request& request) {
 
 /// Writes and says what was found.
 template <class Findings>
-Result<void> deliver(const Result<Findings>& findings, const Request& request) {
+Result<void> deliver(const Result<Findings>& findings, const CalibrateSensorRequest& request) {
   if (!findings) return findings.error();
   if (auto written = write_results(*findings, request.output, command_line()); !written) return written;
   if (request.verbosity.json) fmt::print("{}", to_json(*findings));
@@ -50,7 +50,7 @@ Result<void> deliver(const Result<Findings>& findings, const Request& request) {
   return {};
 }
 
-Result<void> calibrate_sensor(const Request& request) {
+Result<void> calibrate_sensor(const CalibrateSensorRequest& request) {
   if (request.input.empty() == request.places.empty())
     return Error{
         "calibrate sensor: give a log of a robot that moves, or --places FILE with recordings at known "
@@ -67,7 +67,7 @@ void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
   auto* command = calibrate.add_subcommand(
       "sensor",
       "How a landmark sensor or camera errs: on a robot that moves, or before landmarks at known places");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CalibrateSensorRequest>();
   command->add_option("input", request->input,
                       "a log folder, a ROS bag, a published data set, or sim:SCENARIO");
   command

@@ -16,7 +16,7 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct CheckRequest {
   std::string input;
   SettingsFlags flags;
   Verbosity verbosity;
@@ -115,7 +115,7 @@ Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
 
 /// Landmarks of the survey that the observations contradict: by the true path where there is one, else by the
 /// map that a filter makes of the log.
-std::vector<std::string> survey_oddities(const Request& request, const LogInfo& log,
+std::vector<std::string> survey_oddities(const CheckRequest& request, const LogInfo& log,
                                          const Contents& contents) {
   if (log.landmarks.empty() || contents.placed.empty()) return {};
   const Eigen::Vector2d truth_sensor_m = log.truth_sensor_m.value_or(Eigen::Vector2d::Zero());
@@ -129,7 +129,8 @@ std::vector<std::string> survey_oddities(const Request& request, const LogInfo& 
   return describe(eval::compare_maps(result->recording.filter->snapshot().landmarks, log.landmarks));
 }
 
-std::vector<std::string> find_oddities(const Request& request, const LogInfo& log, const Contents& contents) {
+std::vector<std::string> find_oddities(const CheckRequest& request, const LogInfo& log,
+                                       const Contents& contents) {
   std::vector<std::string> oddities = contents.notes;
   for (const auto& [name, stream] : contents.streams)
     if (name != "ground truth" && name != "observations" && to_seconds(stream.longest_gap) > 1.0)
@@ -143,7 +144,7 @@ std::vector<std::string> find_oddities(const Request& request, const LogInfo& lo
 }
 
 /// What to run on it, or why nothing can be run.
-std::string advice(const Request& request, const Config& config, const LogInfo& log,
+std::string advice(const CheckRequest& request, const Config& config, const LogInfo& log,
                    const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
   if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
@@ -179,8 +180,8 @@ void print_topics(const LogInfo& log) {
                width, topic.messages, rate_hz(topic, log), topic.use.empty() ? "not used" : topic.use);
 }
 
-void print_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
-                const std::string& next) {
+void print_log_text(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
+                    const std::string& next) {
   fmt::print("{} ({})\n", log.name, log.format);
   print_topics(log);
   for (const auto& [name, stream] : contents.streams)
@@ -200,8 +201,8 @@ void print_text(const LogInfo& log, const Contents& contents, const std::vector<
   fmt::print("run: {}\n", next);
 }
 
-void print_json(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
-                const std::string& next) {
+void print_log_json(const LogInfo& log, const Contents& contents, const std::vector<std::string>& oddities,
+                    const std::string& next) {
   nlohmann::ordered_json json{{"name", log.name}, {"format", log.format}};
   for (const auto& [name, stream] : contents.streams)
     json["streams"].push_back({{"name", name},
@@ -227,7 +228,7 @@ void print_json(const LogInfo& log, const Contents& contents, const std::vector<
   fmt::print("{}\n", json.dump(2));
 }
 
-Result<void> check_log(const Request& request) {
+Result<void> check_log(const CheckRequest& request) {
   auto opened = open_input(request.input, request.flags.settings());
   if (!opened) return opened.error();
   ImageLoader source(std::move(opened->source));
@@ -235,7 +236,7 @@ Result<void> check_log(const Request& request) {
   const LogInfo& log = source.info();
   const auto oddities = find_oddities(request, log, contents);
   const std::string next = advice(request, opened->config, log, contents);
-  (request.verbosity.json ? print_json : print_text)(log, contents, oddities, next);
+  (request.verbosity.json ? print_log_json : print_log_text)(log, contents, oddities, next);
   if (contents.error) return *contents.error;
   return {};
 }
@@ -245,7 +246,7 @@ Result<void> check_log(const Request& request) {
 void add_check(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<CheckRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();

@@ -8,12 +8,12 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct ConfigRequest {
   std::string validate;
   SettingsFlags flags;
 };
 
-Result<void> config(const Request& request) {
+Result<void> config(const ConfigRequest& request) {
   UserSettings user = request.flags.settings();
   if (!request.validate.empty()) user.files.emplace_back(request.validate);
   auto config = resolve_config(user);
@@ -29,7 +29,7 @@ Result<void> config(const Request& request) {
 
 void add_config(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("config", "Print the full config with comments, or validate a file");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ConfigRequest>();
   command->add_option("--validate", request->validate, "check this file and say what is wrong with it")
       ->type_name("FILE");
   request->flags.add_to(*command);

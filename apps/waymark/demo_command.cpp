@@ -14,14 +14,14 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct DemoRequest {
   std::string output = "waymark-demo";
   SettingsFlags flags;
   Verbosity verbosity;
 };
 
 /// One filter over the simulated log, its files in a folder of its own.
-Result<RunResult> run_filter(const Request& request, const char* filter) {
+Result<RunResult> run_filter(const DemoRequest& request, const char* filter) {
   UserSettings user = request.flags.settings();
   user.assignments.push_back(std::string("filter=") + filter);
   auto result = run_log("sim:study", user, {}, [](double) { return !interrupted(); });
@@ -35,7 +35,7 @@ Result<RunResult> run_filter(const Request& request, const char* filter) {
   return result;
 }
 
-Result<void> demo(const Request& request) {
+Result<void> demo(const DemoRequest& request) {
   if (auto made = ensure_output_folder(request.output); !made) return made;
   catch_interrupts();
   auto ekf = run_filter(request, "ekf");
@@ -59,7 +59,7 @@ Result<void> demo(const Request& request) {
 void add_demo(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("demo", "Simulate a drive, run both filters, write a report; needs no data");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<DemoRequest>();
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-demo)")
       ->type_name("OUT");
   request->flags.add_to(*command);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct EvalRequest {
   std::string result;
   std::string truth;
   SettingsFlags flags;
@@ -90,7 +90,7 @@ Result<Reference> read_reference(const std::string& input, const UserSettings& u
   return Reference{eval::TruthTrack::from_trajectory(*trajectory), {}, {}};
 }
 
-Result<void> evaluate(const Request& request) {
+Result<void> evaluate(const EvalRequest& request) {
   auto estimate = read_estimate(request.result);
   if (!estimate) return estimate.error();
   auto reference = read_reference(request.truth, request.flags.settings());
@@ -114,7 +114,7 @@ Result<void> evaluate(const Request& request) {
 
 void add_eval(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("eval", "Errors of a result against ground truth, aligned and not");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<EvalRequest>();
   command->add_option("result", request->result, "a folder that `waymark run` wrote, or a TUM trajectory")
       ->required();
   command->add_option("--truth", request->truth, "a log with ground truth, or a TUM trajectory")

@@ -15,13 +15,13 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct MapRequest {
   std::string input;
   std::string other;
   std::string output;
 };
 
-Result<void> show(const Request& request) {
+Result<void> show(const MapRequest& request) {
   const auto map = read_map_of_any_form(request.input);
   if (!map) return map.error();
   const Snapshot snapshot = snapshot_of(*map);
@@ -41,7 +41,7 @@ Result<void> show(const Request& request) {
   return {};
 }
 
-Result<void> convert(const Request& request) {
+Result<void> convert(const MapRequest& request) {
   const auto map = read_map_of_any_form(request.input);
   if (!map) return map.error();
   return write_map_of_any_form(request.output, *map);
@@ -58,7 +58,7 @@ Result<void> write_joined(Result<JoinedMap> joined, const std::string& output, c
   return write_map_of_any_form(output, joined->map);
 }
 
-Result<void> merge(const Request& request) {
+Result<void> merge(const MapRequest& request) {
   const auto first = read_map_of_any_form(request.input);
   if (!first) return first.error();
   const auto second = read_map_of_any_form(request.other);
@@ -67,7 +67,7 @@ Result<void> merge(const Request& request) {
                       fmt::format("waymark map merge of {} and {}", request.input, request.other));
 }
 
-Result<void> fix(const Request& request) {
+Result<void> fix(const MapRequest& request) {
   const auto map = read_map_of_any_form(request.input);
   if (!map) return map.error();
   const auto survey = read_survey(request.other, *map);
@@ -78,7 +78,7 @@ Result<void> fix(const Request& request) {
 
 /// A command of `map` that reads `input` and does `act`.
 CLI::App* add(CLI::App& map, Work& work, const char* name, const char* help, const char* example,
-              Result<void> (*act)(const Request&), const std::shared_ptr<Request>& request) {
+              Result<void> (*act)(const MapRequest&), const std::shared_ptr<MapRequest>& request) {
   auto* command = map.add_subcommand(name, help);
   command->add_option("map", request->input, "a saved map: .waymark, .json or .csv")
       ->required()
@@ -88,7 +88,7 @@ CLI::App* add(CLI::App& map, Work& work, const char* name, const char* help, con
   return command;
 }
 
-void add_output(CLI::App& command, Request& request) {
+void add_output(CLI::App& command, MapRequest& request) {
   command.add_option("-o,--output", request.output, "the map to write: .waymark, .json or .csv")
       ->required()
       ->type_name("OUT");
@@ -102,7 +102,7 @@ void add_map(CLI::App& app, Work& work) {
   map->footer(
       "Examples:\n  waymark map show out/map.waymark\n"
       "  waymark map merge monday/map.waymark tuesday/map.waymark -o both.waymark");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<MapRequest>();
   add(*map, work, "show", "What is in a map", "waymark map show out/map.waymark", show, request);
   auto* to = add(*map, work, "convert", "Write a map in another form; .csv has no correlations",
                  "waymark map convert out/map.waymark -o map.json", convert, request);

@@ -11,7 +11,7 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct RunRequest {
   std::string input;
   std::string output = "waymark-out";
   std::string filter;
@@ -41,7 +41,7 @@ struct Request {
   }
 };
 
-void print_summary(const Request& request, const RunResult& result) {
+void print_summary(const RunRequest& request, const RunResult& result) {
   if (request.verbosity.json) fmt::print("{}", to_json(result.metrics));
   if (!request.verbosity.talks()) return;
   fmt::print("{}", to_text(result.metrics));
@@ -49,7 +49,7 @@ void print_summary(const Request& request, const RunResult& result) {
   fmt::print("report: {}/report.html\n", request.output);
 }
 
-Result<void> run(const Request& request) {
+Result<void> run(const RunRequest& request) {
   if (auto made = ensure_output_folder(request.output); !made) return made;
   catch_interrupts();
   auto result = [&request] {
@@ -70,7 +70,7 @@ Result<void> run(const Request& request) {
 
 void add_run(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<RunRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
       ->required();

@@ -11,7 +11,7 @@
 namespace waymark::app {
 namespace {
 
-struct Request {
+struct SimRequest {
   std::string scenario;
   std::string output;
   SettingsFlags flags;
@@ -24,7 +24,7 @@ std::string scenario_list() {
   return list;
 }
 
-Result<void> simulate(const Request& request) {
+Result<void> simulate(const SimRequest& request) {
   auto simulation = open_simulation(request.scenario, request.flags.settings());
   if (!simulation) return simulation.error();
   {
@@ -40,7 +40,7 @@ Result<void> simulate(const Request& request) {
 
 void add_sim(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("sim", "Write a simulated log folder with ground truth");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<SimRequest>();
   command->add_option("scenario", request->scenario, "one of " + scenario_list())->required();
   command->add_option("-o,--output", request->output, "log folder to write")->required()->type_name("LOG");
   request->flags.add_to(*command);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStudy = "study";
 
-struct Request {
+struct SweepRequest {
   std::string input = kStudy;
   std::string output = "waymark-sweep";
   std::vector<std::string> axes;
@@ -43,7 +43,7 @@ void put_axis(const study::Axis& axis, study::SweepPlan& plan) {
   for (auto& block : plan.blocks) block.push_back(axis);
 }
 
-Result<study::SweepPlan> make_plan(const Request& request) {
+Result<study::SweepPlan> make_plan(const SweepRequest& request) {
   const bool is_study = request.input == kStudy;
   if (!is_study && request.axes.empty())
     return Error{"sweep: nothing varies; give at least one --axis, for example --axis seed=1..20"};
@@ -66,7 +66,7 @@ Result<study::SweepPlan> make_plan(const Request& request) {
 }
 
 /// Runs beside each other in this process.
-Result<int> count_threads(const Request& request, const Ranks& ranks) {
+Result<int> count_threads(const SweepRequest& request, const Ranks& ranks) {
   const auto config = resolve_config(request.flags.settings());
   if (!config) return config.error();
   if (!request.flags.threads.empty()) return config->threads;
@@ -94,7 +94,7 @@ Result<void> write(const study::Sweep& sweep, const study::SweepSummary& summary
                             folder / "sweep.html");
 }
 
-void print(const Request& request, const study::Sweep& sweep, const study::SweepSummary& summary) {
+void print(const SweepRequest& request, const study::Sweep& sweep, const study::SweepSummary& summary) {
   if (request.verbosity.json) fmt::print("{}\n", sweep_json_text(summary));
   if (!request.verbosity.talks()) return;
   fmt::print("{} runs on {}, medians over the seeds\n{}", sweep.done(), sweep.plan().input,
@@ -119,7 +119,7 @@ Result<void> judge(const study::Sweep& sweep, const std::string& folder) {
                all ? Error::Kind::kBadInput : Error::Kind::kFailed};
 }
 
-Result<void> sweep_first(const Request& request, const study::SweepPlan& plan, Ranks& ranks) {
+Result<void> sweep_first(const SweepRequest& request, const study::SweepPlan& plan, Ranks& ranks) {
   const auto threads = count_threads(request, ranks);
   if (!threads) return threads.error();
   if (auto opened = open_input(plan.input, plan.user); !opened) return opened.error();
@@ -135,7 +135,7 @@ Result<void> sweep_first(const Request& request, const study::SweepPlan& plan, R
   return judge(**sweep, request.output);
 }
 
-Result<void> sweep(const Request& request) {
+Result<void> sweep(const SweepRequest& request) {
   auto ranks = Ranks::join();
   if (!ranks) return ranks.error();
   const auto plan = make_plan(request);
@@ -150,7 +150,7 @@ Result<void> sweep(const Request& request) {
 void add_sweep(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("sweep", "Many runs over seeds, particles, any setting; a table and a page");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<SweepRequest>();
   command->add_option("input", request->input,
                       "a log, sim:SCENARIO, or study: the default study (also without an input)");
   command->add_option("--axis", request->axes, "a config key and its values; every combination is run")

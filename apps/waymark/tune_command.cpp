@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct TuneRequest {
   std::vector<std::string> logs;
   std::string output = "waymark-tune";
   std::vector<std::string> keys;
@@ -29,14 +29,14 @@ struct Request {
 };
 
 /// Runs beside each other; each has one thread.
-Result<int> count_threads(const Request& request) {
+Result<int> count_threads(const TuneRequest& request) {
   const auto config = resolve_config(request.flags.settings());
   if (!config) return config.error();
   if (!request.flags.threads.empty()) return config->threads;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-Result<study::TuneResult> tune_logs(const Request& request, int threads) {
+Result<study::TuneResult> tune_logs(const TuneRequest& request, int threads) {
   ProgressBar bar("tuning", request.verbosity);
   std::mutex drawing;
   const auto by = request.by == "rmse" ? study::TuneBy::kRmse : study::TuneBy::kLikelihood;
@@ -48,14 +48,14 @@ Result<study::TuneResult> tune_logs(const Request& request, int threads) {
                      });
 }
 
-void print(const Request& request, const study::TuneResult& result) {
+void print(const TuneRequest& request, const study::TuneResult& result) {
   if (request.verbosity.json) fmt::print("{}\n", tune_json_text(result));
   if (!request.verbosity.talks()) return;
   fmt::print("{} runs over {} sightings\n{}", result.runs, result.sightings, study::to_text(result));
   fmt::print("config: {0}/tuned.yaml\nreport: {0}/report.html\n", request.output);
 }
 
-Result<void> tune(const Request& request) {
+Result<void> tune(const TuneRequest& request) {
   const auto threads = count_threads(request);
   if (!threads) return threads.error();
   if (auto made = ensure_output_folder(request.output); !made) return made;
@@ -77,7 +77,7 @@ Result<void> tune(const Request& request) {
 void add_tune(CLI::App& app, Work& work) {
   auto* command =
       app.add_subcommand("tune", "Noise parameters that explain one or several logs best; a config");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<TuneRequest>();
   command
       ->add_option("logs", request->logs,
                    "what `waymark run` takes; LOG@KEY=VALUE,KEY=VALUE has settings of its own")

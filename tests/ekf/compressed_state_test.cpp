@@ -90,14 +90,14 @@ class Wanderer {
 constexpr int kCapacity = 300;
 constexpr Compression kSmallRegions{48, 48};
 
-struct Case {
+struct CompressedCase {
   int dimension;
   Consistency consistency;
   int error_pairs = 0;
 };
 
 /// The same operations on a compressed and on a whole state.
-class CompressedAgainstWhole : public testing::TestWithParam<Case> {
+class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
  protected:
   CompressedAgainstWhole()
       : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallRegions, 1,
@@ -177,12 +177,13 @@ TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManyRegions) {
   EXPECT_TRUE(is_covariance(compressed_.covariance()));
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModes, CompressedAgainstWhole,
-                         testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant},
-                                         Case{2, Consistency::kFej}, Case{3, Consistency::kStandard},
-                                         Case{3, Consistency::kInvariant}, Case{3, Consistency::kFej},
-                                         Case{2, Consistency::kFej, 3}, Case{3, Consistency::kStandard, 2},
-                                         Case{2, Consistency::kInvariant, 3}));
+INSTANTIATE_TEST_SUITE_P(
+    AllModes, CompressedAgainstWhole,
+    testing::Values(CompressedCase{2, Consistency::kStandard}, CompressedCase{2, Consistency::kInvariant},
+                    CompressedCase{2, Consistency::kFej}, CompressedCase{3, Consistency::kStandard},
+                    CompressedCase{3, Consistency::kInvariant}, CompressedCase{3, Consistency::kFej},
+                    CompressedCase{2, Consistency::kFej, 3}, CompressedCase{3, Consistency::kStandard, 2},
+                    CompressedCase{2, Consistency::kInvariant, 3}));
 
 /// How far the means come apart when all innovations are `scale` times as large.
 double invariant_difference(double scale) {

@@ -20,7 +20,7 @@ MapState map_of(CircleWorld& world) {
 }
 
 /// One landmark after the other, as a slow reader has it.
-void drive(Filter& filter, CircleWorld& world, int steps) {
+void drive_round(Filter& filter, CircleWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
     const Observation seen = world.sight((3 * i) % 8);
@@ -32,11 +32,11 @@ TEST(Localizer, FindsItselfWithinTheFirstSightingsAndStaysThere) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
     Localizer filter(map_of(world), {}, {}, world.mount());
-    drive(filter, world, 2);
+    drive_round(filter, world, 2);
     EXPECT_FALSE(filter.knows_pose());
-    drive(filter, world, 18);
+    drive_round(filter, world, 18);
     ASSERT_TRUE(filter.knows_pose());
-    drive(filter, world, 80);
+    drive_round(filter, world, 80);
     EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 0.3);
     EXPECT_EQ(filter.losses(), 0);
   }
@@ -45,7 +45,7 @@ TEST(Localizer, FindsItselfWithinTheFirstSightingsAndStaysThere) {
 TEST(Localizer, KnowsHowSureItIs) {
   const double nees = test::mean_pose_nees([](CircleWorld& world) {
     Localizer filter(map_of(world), {}, {}, world.mount());
-    drive(filter, world, 60);
+    drive_round(filter, world, 60);
     return filter.pose();
   });
   EXPECT_GT(nees, test::kLeastMeanNees);
@@ -56,7 +56,7 @@ TEST(Localizer, LeavesTheMapAlone) {
   CircleWorld world(4);
   const MapState map = map_of(world);
   Localizer filter(map, {}, {}, world.mount());
-  drive(filter, world, 60);
+  drive_round(filter, world, 60);
   EXPECT_EQ(filter.save().landmarks, map.landmarks);
   EXPECT_EQ(filter.save().covariance.bottomRightCorner(16, 16), map.covariance.bottomRightCorner(16, 16));
 }
@@ -72,9 +72,9 @@ TEST(Localizer, SaysThatTheMapIsOfAnotherPlace) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
     Localizer filter(shuffled(map_of(world), seed), {}, {}, world.mount());
-    drive(filter, world, 11);
+    drive_round(filter, world, 11);
     early += filter.refusal().has_value();
-    drive(filter, world, 9);
+    drive_round(filter, world, 9);
     ASSERT_FALSE(filter.knows_pose());
     ASSERT_TRUE(filter.refusal());
     EXPECT_THAT(filter.refusal()->message, testing::HasSubstr("another place"));
@@ -105,7 +105,7 @@ TEST(Localizer, AMisreadNumberIsNoOtherPlace) {
     Observation misread = world.sight(1);
     misread.id->number = 5;
     filter.correct({&misread, 1});
-    drive(filter, world, 20);
+    drive_round(filter, world, 20);
     EXPECT_TRUE(filter.knows_pose()) << "seed " << seed;
   }
 }
@@ -115,7 +115,7 @@ TEST(Localizer, SaysThatTheMapHasNoneOfTheLandmarks) {
   MapState map = map_of(world);
   for (LandmarkId& id : map.ids) id.number += 100;
   Localizer filter(map, {}, {}, world.mount());
-  drive(filter, world, 20);
+  drive_round(filter, world, 20);
   ASSERT_TRUE(filter.refusal());
   EXPECT_THAT(filter.refusal()->message,
               testing::HasSubstr("of 8 landmarks seen in 20 sightings and 0 s of driving the map has 0"));

@@ -22,7 +22,7 @@ constexpr int kAnchors = 5;
 
 LandmarkId corner(int number) { return {LandmarkId::Family::kCorner, number}; }
 
-Motion random_motion(RandomStream& random) {
+Motion random_step(RandomStream& random) {
   return {{random.uniform(0.0, 0.3), random.uniform(-0.02, 0.02), random.uniform(-0.2, 0.2)},
           test::random_covariance<3>(random, 1e-4)};
 }
@@ -41,7 +41,7 @@ class Model {
         anchors_(kAnchors) {}
 
   void step() {
-    map_.state().predict(random_motion(random_));
+    map_.state().predict(random_step(random_));
     const double what = random_.uniform();
     if (what < 0.2)
       add_anchor();
@@ -217,7 +217,7 @@ TEST(PixelMap, AnAnchorLeavesWithItsLastHolder) {
 void add_three_rays(PixelMap& map, RandomStream& random) {
   int number = 0;
   for (const int rays : {2, 1}) {
-    map.state().predict(random_motion(random));
+    map.state().predict(random_step(random));
     const int anchor = *map.add_anchor();
     for (int k = 0; k < rays; ++k) {
       ErrorTerms errors;
@@ -228,7 +228,7 @@ void add_three_rays(PixelMap& map, RandomStream& random) {
     }
   }
   map.state().relax_errors(0, 0.5);
-  map.state().predict(random_motion(random));
+  map.state().predict(random_step(random));
 }
 
 TEST(PixelMap, APointIsWhatItsRayAndItsAnchorSayTogether) {

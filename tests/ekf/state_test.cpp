@@ -52,7 +52,7 @@ Sighting random_sighting(RandomStream& random, int landmark, int dimension, int 
   return s;
 }
 
-struct Case {
+struct StateCase {
   int dimension;
   Consistency consistency;
   int error_pairs = 0;
@@ -61,7 +61,7 @@ struct Case {
 /// The fast state and the plain one in a random world of their own, given the same random operations.
 class Twins {
  public:
-  Twins(const Case& kind, int capacity, std::uint64_t seed)
+  Twins(const StateCase& kind, int capacity, std::uint64_t seed)
       : kind_(kind),
         state_(kind.dimension, capacity, kind.consistency, 1, kind.error_pairs),
         dense_(kind.dimension, kind.consistency, kind.error_pairs),
@@ -204,13 +204,13 @@ class Twins {
                             S.topLeftCorner(first.rows, first.rows), 1e-8 * std::max(1.0, S.maxCoeff())));
   }
 
-  Case kind_;
+  StateCase kind_;
   State state_;
   DenseFilter dense_;
   RandomStream random_;
 };
 
-class StateAgainstDenseFilter : public testing::TestWithParam<Case> {
+class StateAgainstDenseFilter : public testing::TestWithParam<StateCase> {
  protected:
   /// `operations` random ones in one world, compared now and then.
   static void compare(int capacity, std::uint64_t seed, int operations) {
@@ -237,12 +237,13 @@ TEST_P(StateAgainstDenseFilter, StaysEqualInManyRandomWorlds) {
     compare(1 + world % 5, 100 + static_cast<std::uint64_t>(world), kOperations);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModes, StateAgainstDenseFilter,
-                         testing::Values(Case{2, Consistency::kStandard}, Case{2, Consistency::kInvariant},
-                                         Case{2, Consistency::kFej}, Case{3, Consistency::kStandard},
-                                         Case{3, Consistency::kInvariant, 1}, Case{3, Consistency::kFej},
-                                         Case{2, Consistency::kStandard, 3},
-                                         Case{2, Consistency::kInvariant, 3}, Case{3, Consistency::kFej, 2}));
+INSTANTIATE_TEST_SUITE_P(
+    AllModes, StateAgainstDenseFilter,
+    testing::Values(StateCase{2, Consistency::kStandard}, StateCase{2, Consistency::kInvariant},
+                    StateCase{2, Consistency::kFej}, StateCase{3, Consistency::kStandard},
+                    StateCase{3, Consistency::kInvariant, 1}, StateCase{3, Consistency::kFej},
+                    StateCase{2, Consistency::kStandard, 3}, StateCase{2, Consistency::kInvariant, 3},
+                    StateCase{3, Consistency::kFej, 2}));
 
 std::unique_ptr<State> small_map(RandomStream& random, int landmarks, int threads = 1) {
   auto made = std::make_unique<State>(2, landmarks, Consistency::kInvariant, threads);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "waymark/core/random.hpp"
+#include "waymark/core/source.hpp"
 #include "waymark/core/trajectory.hpp"
 #include "waymark/eval/truth_track.hpp"
 
@@ -51,6 +52,10 @@ inline Trajectory straight_path(int count, double step_s = 1.0) {
   for (int i = 0; i < count; ++i)
     path.push_back({stamp_from_seconds(step_s * i), {step_s * i, 0.0, 0.0}, std::nullopt});
   return path;
+}
+
+inline TrueLandmark surveyed(int number, double x_m, double y_m, double z_m = 0.0) {
+  return {{LandmarkId::Family::kBarcode, number}, x_m, y_m, z_m};
 }
 
 inline TruthSample truth_at(double seconds, double x_m, double y_m,

@@ -12,13 +12,13 @@ using test::moved;
 using test::truth_at;
 using test::wavy_path;
 
-const std::vector<TrueLandmark> kSurvey{{{LandmarkId::Family::kMarker, 1}, 0, 0, 0},
-                                        {{LandmarkId::Family::kMarker, 2}, 5, 0, 0},
-                                        {{LandmarkId::Family::kMarker, 3}, 0, 5, 0}};
+const std::vector<TrueLandmark> kTwoMarkers{{{LandmarkId::Family::kMarker, 1}, 0, 0, 0},
+                                            {{LandmarkId::Family::kMarker, 2}, 5, 0, 0},
+                                            {{LandmarkId::Family::kMarker, 3}, 0, 5, 0}};
 
 std::vector<LandmarkEstimate> map_in(const Pose2& T_map_truth) {
   std::vector<LandmarkEstimate> map;
-  for (const TrueLandmark& landmark : kSurvey) {
+  for (const TrueLandmark& landmark : kTwoMarkers) {
     const Eigen::Vector2d p = T_map_truth * Eigen::Vector2d(landmark.x_m, landmark.y_m);
     map.push_back({.id = landmark.id, .position_m = {p.x(), p.y(), 0.0}});
   }
@@ -31,7 +31,7 @@ TEST(Evaluate, APerfectRunInAnyFrameHasNoError) {
   Trajectory estimate = moved(T_estimate_truth, path);
   for (TrajectoryPoint& point : estimate) point.covariance = Eigen::Matrix3d::Identity();
   const auto evaluation = evaluate(estimate, map_in(T_estimate_truth), TruthTrack::from_trajectory(path),
-                                   kSurvey, moved({1, 1, 1}, path));
+                                   kTwoMarkers, moved({1, 1, 1}, path));
   EXPECT_EQ(evaluation.pairs, 500u);
   EXPECT_NEAR(evaluation.scored_s, 49.9, 1e-9);
   EXPECT_NEAR(*evaluation.path_m, 49.9, 1e-6);
@@ -117,7 +117,7 @@ TEST(Evaluate, EmptyInputsLeaveEverythingEmpty) {
   EXPECT_FALSE(nothing.anchor);
   EXPECT_TRUE(nothing.notes.empty());
 
-  const auto no_overlap = evaluate(wavy_path(10), map_in({}), TruthTrack({truth_at(99, 0, 0)}), kSurvey);
+  const auto no_overlap = evaluate(wavy_path(10), map_in({}), TruthTrack({truth_at(99, 0, 0)}), kTwoMarkers);
   EXPECT_FALSE(no_overlap.path.position_rmse_m);
   EXPECT_TRUE(no_overlap.map->rmse_self_m) << "the map can still be compared by itself";
   EXPECT_FALSE(no_overlap.map->rmse_m);

@@ -7,13 +7,11 @@
 namespace waymark::eval {
 namespace {
 
+using test::surveyed;
+
 LandmarkEstimate seen(int number, double x_m, double y_m,
                       LandmarkId::Family family = LandmarkId::Family::kBarcode) {
   return {.id = {family, number}, .position_m = {x_m, y_m, 0.0}};
-}
-
-TrueLandmark surveyed(int number, double x_m, double y_m, double z_m = 0.0) {
-  return {{LandmarkId::Family::kBarcode, number}, x_m, y_m, z_m};
 }
 
 const std::vector<TrueLandmark> kSurvey{surveyed(1, 0, 0), surveyed(2, 4, 0), surveyed(3, 0, 3),

@@ -12,10 +12,7 @@ namespace {
 
 using test::random_pose;
 using test::random_stream;
-
-TrueLandmark surveyed(int number, double x_m, double y_m) {
-  return {{LandmarkId::Family::kBarcode, number}, x_m, y_m, 0};
-}
+using test::surveyed;
 
 /// The layout of UTIAS MRCLAM 1, where the published file has 11 and 17 exchanged; here they are right.
 const std::vector<TrueLandmark> kMrclam1{

@@ -10,15 +10,15 @@ namespace waymark::fastslam {
 namespace {
 
 constexpr int kNothing = ExclusiveMatch::kNothing;
-constexpr int kCount = 300;
-constexpr LandmarkSensor kSensor{.max_range_m = 10.0, .field_of_view_deg = 180.0};
+constexpr int kCloud = 300;
+constexpr LandmarkSensor kHalfPlane{.max_range_m = 10.0, .field_of_view_deg = 180.0};
 
 class AssociationTest : public testing::Test {
  protected:
   AssociationTest() {
     for (int k = 0; k < 2; ++k) {
       store_.add(kernels::LandmarkForm::kPoint, {0.0, 0.0}, 1, true);
-      std::fill_n(store_.existence(k), kCount, 1.0F);
+      std::fill_n(store_.existence(k), kCloud, 1.0F);
     }
     association_.begin_split();
   }
@@ -29,7 +29,7 @@ class AssociationTest : public testing::Test {
   }
   void offer(int sighting, int landmark, double even_score, double odd_score) {
     Association::Choice* const choice = association_.offer(sighting, landmark, 3.0, 0.9);
-    for (int i = 0; i < kCount; ++i)
+    for (int i = 0; i < kCloud; ++i)
       choice->column[i] = log_likelihood(*choice, i % 2 == 0 ? even_score : odd_score);
   }
   [[nodiscard]] int chosen(int sighting, int particle) const {
@@ -38,9 +38,9 @@ class AssociationTest : public testing::Test {
     return -2;
   }
 
-  ParticleBlocks blocks_{kCount, 2};
+  ParticleBlocks blocks_{kCloud, 2};
   LandmarkStore store_{blocks_};
-  Association association_{AssociationModel({}, kSensor), blocks_};
+  Association association_{AssociationModel({}, kHalfPlane), blocks_};
 };
 
 TEST_F(AssociationTest, EveryParticleTakesWhatIsBestForIt) {
@@ -48,7 +48,7 @@ TEST_F(AssociationTest, EveryParticleTakesWhatIsBestForIt) {
   offer(0, 0, 5.0, 2.0);
   offer(0, 1, 4.0, 3.0);
   association_.split(store_);
-  for (int i = 0; i < kCount; ++i) EXPECT_EQ(chosen(0, i), i % 2);
+  for (int i = 0; i < kCloud; ++i) EXPECT_EQ(chosen(0, i), i % 2);
 }
 
 TEST_F(AssociationTest, ALandmarkIsSeenOncePerScan) {
@@ -57,7 +57,7 @@ TEST_F(AssociationTest, ALandmarkIsSeenOncePerScan) {
   offer(0, 0, 5.0, 2.0);
   offer(1, 0, 4.0, 3.0);
   association_.split(store_);
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kCloud; ++i) {
     EXPECT_EQ(chosen(0, i), i % 2 == 0 ? 0 : kNothing);
     EXPECT_EQ(chosen(1, i), i % 2 == 0 ? kNothing : 0);
   }
@@ -67,15 +67,15 @@ TEST_F(AssociationTest, WhatFitsNothingKnownIsNew) {
   association_.offer_none(0, 3.0);
   offer(0, 0, -0.1, 0.1);
   association_.split(store_);
-  for (int i = 0; i < kCount; ++i) EXPECT_EQ(chosen(0, i), i % 2 == 0 ? kNothing : 0);
+  for (int i = 0; i < kCloud; ++i) EXPECT_EQ(chosen(0, i), i % 2 == 0 ? kNothing : 0);
 }
 
 TEST_F(AssociationTest, AParticleCannotTakeALandmarkThatItDoesNotHave) {
-  for (int i = 0; i < kCount; i += 3) store_.existence(0)[i] = kernels::kAbsent;
+  for (int i = 0; i < kCloud; i += 3) store_.existence(0)[i] = kernels::kAbsent;
   association_.offer_none(0, 3.0);
   offer(0, 0, 5.0, 5.0);
   association_.split(store_);
-  for (int i = 0; i < kCount; ++i) EXPECT_EQ(chosen(0, i), i % 3 == 0 ? kNothing : 0);
+  for (int i = 0; i < kCloud; ++i) EXPECT_EQ(chosen(0, i), i % 3 == 0 ? kNothing : 0);
 }
 
 TEST_F(AssociationTest, WeightsDifferByTheScore) {
@@ -95,9 +95,9 @@ TEST_F(AssociationTest, RoomForChoicesEnds) {
 }
 
 TEST_F(AssociationTest, SupportIsTheWeightOfThoseThatHaveIt) {
-  Particles particles(kCount, {});
+  Particles particles(kCloud, {});
   float* const log_odds = store_.existence(0);
-  for (int i = 0; i < kCount; ++i) log_odds[i] = i < 75 ? kernels::kAbsent : i < 150 ? 7.0F : 1.0F;
+  for (int i = 0; i < kCloud; ++i) log_odds[i] = i < 75 ? kernels::kAbsent : i < 150 ? 7.0F : 1.0F;
   const Association::Support support = association_.support(log_odds, particles);
   EXPECT_NEAR(support.present, 0.75, 1e-9);
   EXPECT_NEAR(support.confirmed, 0.25, 1e-9);

@@ -13,7 +13,7 @@ namespace {
 using kernels::LandmarkForm;
 using kernels::SightingKind;
 
-constexpr int kCount = 2000;
+constexpr int kEnsemble = 2000;
 constexpr double kSigma = 0.3;  // of the robots' places along x
 constexpr float kWorld = 1000.0F;
 
@@ -32,7 +32,7 @@ class EnsembleMoveTest : public testing::Test {
     store_.add(LandmarkForm::kPoint, origin_m_);  // 2: independent
     store_.add(LandmarkForm::kRay, origin_m_);    // 3: its anchor moved with the robot
     RandomStream random(1, StreamPurpose::kWorld);
-    for (int i = 0; i < kCount; ++i) {
+    for (int i = 0; i < kEnsemble; ++i) {
       const double x = kSigma * random.normal();
       particles_.set_pose(i, {kWorld + x, 0.0, 0.0});
       set(0, i, 5.0);
@@ -52,7 +52,7 @@ class EnsembleMoveTest : public testing::Test {
   /// A range to landmark 0, with this noise in each particle.
   void see(float range_m, double noise, double news = 1.0) {
     const kernels::Sighting sighting{{SightingKind::kRange, range_m}, {}, store_.view(0, origin_m_)};
-    const double spread = robot_x().variance * kCount / (kCount - 1.0);
+    const double spread = robot_x().variance * kEnsemble / (kEnsemble - 1.0);
     move_.take_in(sighting, false, spread + noise, news, {}, origin_m_, particles_, calibration_, store_);
   }
 
@@ -61,7 +61,7 @@ class EnsembleMoveTest : public testing::Test {
   [[nodiscard]] Moments moments(const Value& value) const {
     const auto mean_over = [&](const auto& term) {
       double sum = 0.0;
-      for (int i = 0; i < kCount; ++i) {
+      for (int i = 0; i < kEnsemble; ++i) {
         const double w = particles_.weights()[static_cast<std::size_t>(i)];
         if (w > 0.0) sum += w * term(i);
       }
@@ -78,8 +78,8 @@ class EnsembleMoveTest : public testing::Test {
   }
 
   Eigen::Vector2d origin_m_{kWorld, 0.0};
-  ParticleBlocks blocks_{kCount};
-  Particles particles_{kCount, {}};
+  ParticleBlocks blocks_{kEnsemble};
+  Particles particles_{kEnsemble, {}};
   LandmarkStore store_{blocks_};
   RangeCalibration calibration_{{}, 1, blocks_};
   EnsembleMove move_{blocks_};
@@ -124,7 +124,7 @@ TEST_F(EnsembleMoveTest, LeavesAloneWhatHasNothingToDoWithIt) {
 TEST_F(EnsembleMoveTest, CarriesAnchorsAlong) {
   see(4.6F, 1e-4);
   const auto view = store_.view(3, origin_m_);
-  for (int i = 0; i < kCount; ++i) EXPECT_NEAR(view.anchor_x[i], particles_.pose(i).x_m - kWorld, 1e-3);
+  for (int i = 0; i < kEnsemble; ++i) EXPECT_NEAR(view.anchor_x[i], particles_.pose(i).x_m - kWorld, 1e-3);
   EXPECT_FLOAT_EQ(view.modes->gaussian.a[7], 0.1F);
 }
 
@@ -132,7 +132,7 @@ TEST_F(EnsembleMoveTest, CarriesAnchorsAlong) {
 TEST_F(EnsembleMoveTest, DroppedHypothesesDoNotSpreadToOthers) {
   store_.add(LandmarkForm::kRing, origin_m_, 2);
   const auto view = store_.view(4, origin_m_);
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kEnsemble; ++i) {
     const double x = particles_.pose(i).x_m - kWorld;
     view.anchor_x[i] = static_cast<float>(x);
     view.anchor_y[i] = 0.0F;
@@ -148,10 +148,10 @@ TEST_F(EnsembleMoveTest, DroppedHypothesesDoNotSpreadToOthers) {
   see(4.6F, 0.04);
   for (std::size_t k = 0; k < 2; ++k) {
     double mean = 0.0;
-    for (int i = 0; i < kCount; ++i) {
+    for (int i = 0; i < kEnsemble; ++i) {
       if (i % 4 == static_cast<int>(k)) continue;
       ASSERT_TRUE(std::isfinite(view.modes[k].gaussian.a[i])) << i;
-      mean += static_cast<double>(view.modes[k].gaussian.a[i]) / (0.75 * kCount);
+      mean += static_cast<double>(view.modes[k].gaussian.a[i]) / (0.75 * kEnsemble);
     }
     // Those who have it show how it varies, the others do not vary: three quarters of 0.1 times the robots'.
     EXPECT_NEAR(mean - 0.1 * robot.mean, 0.075 * (robot_x().mean - robot.mean), 3e-3) << k;
@@ -160,7 +160,7 @@ TEST_F(EnsembleMoveTest, DroppedHypothesesDoNotSpreadToOthers) {
 }
 
 TEST_F(EnsembleMoveTest, DoesNothingWithoutParticlesToCompare) {
-  for (int i = 3; i < kCount; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 0.0;
+  for (int i = 3; i < kEnsemble; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 0.0;
   for (int i = 0; i < 3; ++i) particles_.weights()[static_cast<std::size_t>(i)] = 1.0 / 3.0;
   const Pose2 before = particles_.pose(0);
   see(4.0F, 1e-4);
@@ -169,8 +169,8 @@ TEST_F(EnsembleMoveTest, DoesNothingWithoutParticlesToCompare) {
 
 TEST_F(EnsembleMoveTest, DeadParticlesDoNotSpoilIt) {
   auto weights = particles_.weights();
-  for (std::size_t i = 0; i < kCount; ++i) weights[i] = i % 2 == 0 ? 2.0 / kCount : 0.0;
-  for (int i = 1; i < kCount; i += 2) particles_.set_pose(i, {std::nan(""), 0.0, 0.0});
+  for (std::size_t i = 0; i < kEnsemble; ++i) weights[i] = i % 2 == 0 ? 2.0 / kEnsemble : 0.0;
+  for (int i = 1; i < kEnsemble; i += 2) particles_.set_pose(i, {std::nan(""), 0.0, 0.0});
   see(4.6F, 1e-4);
   EXPECT_NEAR(robot_x().mean, 0.4, 0.01);
 }

@@ -14,7 +14,7 @@ namespace waymark::fastslam {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 double sum_of_weights(const Particles& p) {
   return std::accumulate(p.weights().begin(), p.weights().end(), 0.0);
@@ -53,7 +53,7 @@ TEST(Particles, WeightsOfVeryUnlikelyParticlesKeepTheirProportions) {
 TEST(Particles, AParticleWithoutAFiniteWeightDies) {
   Particles particles(4, {});
   ParticleBlocks blocks(4);
-  set_log_weights(particles, {kNan, kInfinity, -3.0, -kInfinity});
+  set_log_weights(particles, {kNoNumber, kInfinity, -3.0, -kInfinity});
   ASSERT_TRUE(normalise_weights(particles, blocks));
   EXPECT_EQ(particles.weights()[2], 1.0);
   EXPECT_EQ(sum_of_weights(particles), 1.0);
@@ -62,7 +62,7 @@ TEST(Particles, AParticleWithoutAFiniteWeightDies) {
 TEST(Particles, ASetThatLostAllWeightStartsAgainEvenly) {
   Particles particles(4, {});
   ParticleBlocks blocks(4);
-  set_log_weights(particles, {kNan, kInfinity, -kInfinity, -kInfinity});
+  set_log_weights(particles, {kNoNumber, kInfinity, -kInfinity, -kInfinity});
   EXPECT_FALSE(normalise_weights(particles, blocks));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(particles.weights()[i], 0.25);
   EXPECT_TRUE(normalise_weights(particles, blocks));

@@ -15,7 +15,7 @@ LandmarkSensor sensor_with(double sigma_ratio, double sigma_m) {
   return sensor;
 }
 
-constexpr int kCount = 4000;
+constexpr int kFactors = 4000;
 
 TEST(RangeCalibration, EstimatesNothingUnlessThereIsSomethingToFindOut) {
   ParticleBlocks blocks(10);
@@ -26,14 +26,14 @@ TEST(RangeCalibration, EstimatesNothingUnlessThereIsSomethingToFindOut) {
 }
 
 TEST(RangeCalibration, BeginsAsUnsureAsTheSensorSays) {
-  ParticleBlocks blocks(kCount);
+  ParticleBlocks blocks(kFactors);
   const RangeCalibration calibration(sensor_with(0.1, 0.5), 1, blocks);
-  const std::vector<double> weights(kCount, 1.0 / kCount);
+  const std::vector<double> weights(kFactors, 1.0 / kFactors);
   // Within four standard errors.
-  EXPECT_NEAR(calibration.scale(weights).mean, 1.0, 4.0 * 0.1 / std::sqrt(kCount));
-  EXPECT_NEAR(calibration.scale(weights).sigma, 0.1, 4.0 * 0.1 / std::sqrt(2.0 * kCount));
-  EXPECT_NEAR(calibration.offset_m(weights).mean, 0.0, 4.0 * 0.5 / std::sqrt(kCount));
-  EXPECT_NEAR(calibration.offset_m(weights).sigma, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * kCount));
+  EXPECT_NEAR(calibration.scale(weights).mean, 1.0, 4.0 * 0.1 / std::sqrt(kFactors));
+  EXPECT_NEAR(calibration.scale(weights).sigma, 0.1, 4.0 * 0.1 / std::sqrt(2.0 * kFactors));
+  EXPECT_NEAR(calibration.offset_m(weights).mean, 0.0, 4.0 * 0.5 / std::sqrt(kFactors));
+  EXPECT_NEAR(calibration.offset_m(weights).sigma, 0.5, 4.0 * 0.5 / std::sqrt(2.0 * kFactors));
 }
 
 TEST(RangeCalibration, FollowsMovesAndAncestors) {

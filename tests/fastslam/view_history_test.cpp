@@ -11,7 +11,7 @@
 namespace waymark::fastslam {
 namespace {
 
-constexpr LandmarkSensor kSensor{
+constexpr LandmarkSensor kViewer{
     .min_range_m = 0.5, .max_range_m = 10.0, .field_of_view_deg = 90.0, .detection_probability = 0.8};
 constexpr double kMissed = 0.2;
 
@@ -30,17 +30,17 @@ Eigen::Vector2d at(double range_m, double bearing_deg) {
 }
 
 TEST(ViewHistory, RemembersTheScansBeforeTheLast) {
-  EXPECT_EQ(ViewHistory(kSensor).earlier(), 0U);
-  EXPECT_EQ(history_of(kSensor, {}, 1).earlier(), 0U);
-  EXPECT_EQ(history_of(kSensor, {}, 3).earlier(), 2U);
-  const std::size_t most = history_of(kSensor, {}, 100).earlier();
+  EXPECT_EQ(ViewHistory(kViewer).earlier(), 0U);
+  EXPECT_EQ(history_of(kViewer, {}, 1).earlier(), 0U);
+  EXPECT_EQ(history_of(kViewer, {}, 3).earlier(), 2U);
+  const std::size_t most = history_of(kViewer, {}, 100).earlier();
   EXPECT_GT(most, 2U);
-  EXPECT_EQ(history_of(kSensor, {}, 1000).earlier(), most);
+  EXPECT_EQ(history_of(kViewer, {}, 1000).earlier(), most);
 }
 
 TEST(ViewHistory, KnowsWhereTheRobotWasAtEach) {
   RandomStream random(1, StreamPurpose::kWorld);
-  ViewHistory history(kSensor);
+  ViewHistory history(kViewer);
   Pose2 robot;
   std::vector<Pose2> scans;
   for (int scan = 0; scan < 30; ++scan) {
@@ -63,15 +63,15 @@ TEST(ViewHistory, KnowsWhereTheRobotWasAtEach) {
 }
 
 TEST(ViewHistory, WhatAStandingSensorOverlookedItOverlookedEveryTime) {
-  const ViewHistory history = history_of(kSensor, {}, 4);
+  const ViewHistory history = history_of(kViewer, {}, 4);
   EXPECT_NEAR(history.likelihood_unseen(at(5.0, 0.0), {}), std::pow(kMissed, 3), 1e-12);
   for (const Eigen::Vector2d& outside : {at(0.4, 0.0), at(10.1, 0.0), at(5.0, 46.0), at(5.0, -46.0)})
     EXPECT_EQ(history.likelihood_unseen(outside, {}), 1.0);
-  EXPECT_EQ(history_of(kSensor, {}, 1).likelihood_unseen(at(5.0, 0.0), {}), 1.0);
+  EXPECT_EQ(history_of(kViewer, {}, 1).likelihood_unseen(at(5.0, 0.0), {}), 1.0);
 }
 
 TEST(ViewHistory, OnlyWhatWasInViewByTheMarginCounts) {
-  const ViewHistory history = history_of(kSensor, {}, 2);
+  const ViewHistory history = history_of(kViewer, {}, 2);
   EXPECT_NEAR(history.likelihood_unseen(at(9.8, 0.0), {0.1, 0.0}), kMissed, 1e-12);
   EXPECT_EQ(history.likelihood_unseen(at(9.8, 0.0), {0.3, 0.0}), 1.0);
   EXPECT_EQ(history.likelihood_unseen(at(0.7, 0.0), {0.3, 0.0}), 1.0);
@@ -80,7 +80,7 @@ TEST(ViewHistory, OnlyWhatWasInViewByTheMarginCounts) {
 }
 
 TEST(ViewHistory, DrivingAheadLandmarksEnterByTheReach) {
-  const ViewHistory history = history_of(kSensor, {0.5, 0.0, 0.0}, 5);
+  const ViewHistory history = history_of(kViewer, {0.5, 0.0, 0.0}, 5);
   EXPECT_EQ(history.likelihood_unseen(at(9.8, 0.0), {}), 1.0);
   EXPECT_NEAR(history.likelihood_unseen(at(9.3, 0.0), {}), kMissed, 1e-12);
   EXPECT_NEAR(history.likelihood_unseen(at(8.8, 0.0), {}), kMissed * kMissed, 1e-12);
@@ -88,14 +88,14 @@ TEST(ViewHistory, DrivingAheadLandmarksEnterByTheReach) {
 }
 
 TEST(ViewHistory, TurningLeftLandmarksEnterByTheLeftEdge) {
-  const ViewHistory history = history_of(kSensor, {0.0, 0.0, to_radians(10.0)}, 4);
+  const ViewHistory history = history_of(kViewer, {0.0, 0.0, to_radians(10.0)}, 4);
   EXPECT_EQ(history.likelihood_unseen(at(5.0, 40.0), {}), 1.0);
   EXPECT_NEAR(history.likelihood_unseen(at(5.0, 30.0), {}), kMissed, 1e-12);
   EXPECT_NEAR(history.likelihood_unseen(at(5.0, -40.0), {}), std::pow(kMissed, 3), 1e-12);
 }
 
 TEST(ViewHistory, LooksFromTheSensorNotFromTheRobot) {
-  LandmarkSensor sensor = kSensor;
+  LandmarkSensor sensor = kViewer;
   sensor.x_m = 2.0;  // swings to the left when the robot turns left, and so past what is near
   sensor.yaw_deg = 90.0;
   const Pose2 turn{0.0, 0.0, to_radians(10.0)};
@@ -110,7 +110,7 @@ TEST(ViewHistory, LooksFromTheSensorNotFromTheRobot) {
 }
 
 TEST(ViewHistory, WithoutAChanceOfDetectionNothingIsKnown) {
-  LandmarkSensor sensor = kSensor;
+  LandmarkSensor sensor = kViewer;
   sensor.detection_probability = 0.0;
   EXPECT_EQ(history_of(sensor, {}, 5).likelihood_unseen(at(5.0, 0.0), {}), 1.0);
 }

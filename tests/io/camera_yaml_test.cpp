@@ -73,13 +73,13 @@ TEST(CameraYaml, SettingsAreTheKeysOfTheCameraButForItsMount) {
   EXPECT_EQ(settings.size(), 1u);
 }
 
-struct Damage {
+struct YamlDamage {
   std::string text;  ///< of the file
   std::string replacement;
   std::string complaint;
 };
 
-class DamagedCameraYaml : public testing::TestWithParam<Damage> {};
+class DamagedCameraYaml : public testing::TestWithParam<YamlDamage> {};
 
 TEST_P(DamagedCameraYaml, IsRefusedWithItsLine) {
   const auto& [text, replacement, complaint] = GetParam();
@@ -93,17 +93,18 @@ TEST_P(DamagedCameraYaml, IsRefusedWithItsLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, DamagedCameraYaml,
-    testing::Values(Damage{"image_width: 640\n", "", "camera.yaml: image_width is missing"},
-                    Damage{"image_height: 480", "image_height: -3", "camera.yaml:2: image_height must be"},
-                    Damage{"image_height: 480", "image_height: [4]", "camera.yaml:2: image_height must be"},
-                    Damage{"plumb_bob", "equidistant", "camera.yaml:10: distortion_model"},
-                    Damage{"438.78336", "wide", "camera.yaml:7: camera_matrix holds what is not a number"},
-                    Damage{"438.78336", "-438", "camera_matrix must be [fx, 0, cx"},
-                    Damage{"438.78336", ".nan", "camera_matrix holds what is not a number"},
-                    Damage{", 0.000505, 0.]", "]", "camera.yaml:12: distortion_coefficients needs data"},
-                    Damage{"camera_matrix:\n", "camera_matrix: {}\nx:\n",
-                           "camera_matrix needs data: [...] with 9 numbers"},
-                    Damage{"data: [-0.361976", "data: [[-0.361976", "camera.yaml:"}));
+    testing::Values(
+        YamlDamage{"image_width: 640\n", "", "camera.yaml: image_width is missing"},
+        YamlDamage{"image_height: 480", "image_height: -3", "camera.yaml:2: image_height must be"},
+        YamlDamage{"image_height: 480", "image_height: [4]", "camera.yaml:2: image_height must be"},
+        YamlDamage{"plumb_bob", "equidistant", "camera.yaml:10: distortion_model"},
+        YamlDamage{"438.78336", "wide", "camera.yaml:7: camera_matrix holds what is not a number"},
+        YamlDamage{"438.78336", "-438", "camera_matrix must be [fx, 0, cx"},
+        YamlDamage{"438.78336", ".nan", "camera_matrix holds what is not a number"},
+        YamlDamage{", 0.000505, 0.]", "]", "camera.yaml:12: distortion_coefficients needs data"},
+        YamlDamage{"camera_matrix:\n", "camera_matrix: {}\nx:\n",
+                   "camera_matrix needs data: [...] with 9 numbers"},
+        YamlDamage{"data: [-0.361976", "data: [[-0.361976", "camera.yaml:"}));
 
 TEST(CameraYaml, RefusesWhatIsNoMap) {
   EXPECT_THAT(parse_camera_yaml("- 1\n- 2\n", "c.yaml").error().message,

@@ -28,7 +28,7 @@ std::string log_bytes(Eigen::Index beams = 361, Eigen::Index scans = 1) {
          test::mat_variable("GPSLon", pair) + test::mat_variable("GPSLat", -pair);
 }
 
-Result<std::unique_ptr<Source>> open(const TempFolder& folder, const std::string& bytes) {
+Result<std::unique_ptr<Source>> open_car_park(const TempFolder& folder, const std::string& bytes) {
   const auto file = MatFile::open(folder.write("data_set.mat", bytes));
   EXPECT_TRUE(file.ok()) << file.error().message;
   EXPECT_TRUE(is_car_park(*file));
@@ -39,7 +39,7 @@ TEST(CarPark, ReadsSteeringReflectorsAndTruth) {
   const TempFolder folder;
   folder.write("beac_juan3.mat",
                test::mat_header() + test::mat_variable("estbeac", Eigen::MatrixXd{{1.0, 2.0}, {3.0, 4.0}}));
-  const auto source = open(folder, log_bytes()).value();
+  const auto source = open_car_park(folder, log_bytes()).value();
   const auto events = test::read_all(*source).events;
   EXPECT_EQ(only<Steering>(events)[1].second.steer_rad, 0.2);
   const auto scans = only<Observations>(events);
@@ -56,12 +56,12 @@ TEST(CarPark, ReadsSteeringReflectorsAndTruth) {
 
 TEST(CarPark, WrongShapesAreNamed) {
   const TempFolder folder;
-  EXPECT_THAT(open(folder, log_bytes(360)).error().message,
+  EXPECT_THAT(open_car_park(folder, log_bytes(360)).error().message,
               HasSubstr("variable Laser has 360 columns; expected 361"));
-  EXPECT_THAT(open(folder, log_bytes(361, 2)).error().message,
+  EXPECT_THAT(open_car_park(folder, log_bytes(361, 2)).error().message,
               HasSubstr("variable Laser has 2 values for 1 times"));
   folder.write("beac_juan3.mat", test::mat_header() + test::mat_variable("estbeac", Eigen::MatrixXd{{1.0}}));
-  EXPECT_THAT(open(folder, log_bytes()).error().message,
+  EXPECT_THAT(open_car_park(folder, log_bytes()).error().message,
               HasSubstr("beac_juan3.mat: variable estbeac has 1 columns; expected 2"));
 }
 

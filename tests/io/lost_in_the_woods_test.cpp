@@ -31,7 +31,7 @@ std::string woods(const Eigen::MatrixXd& times = Eigen::MatrixXd{{0.0}, {0.1}}) 
          test::mat_variable("d", Eigen::MatrixXd{{0.219}});
 }
 
-Result<std::unique_ptr<Source>> open(const TempFolder& folder, const std::string& bytes) {
+Result<std::unique_ptr<Source>> open_woods(const TempFolder& folder, const std::string& bytes) {
   const auto file = MatFile::open(folder.write("dataset2.mat", bytes));
   EXPECT_TRUE(file.ok()) << file.error().message;
   EXPECT_TRUE(is_lost_in_the_woods(*file));
@@ -40,7 +40,7 @@ Result<std::unique_ptr<Source>> open(const TempFolder& folder, const std::string
 
 TEST(LostInTheWoods, ZeroIsNotSeenAndInvalidTruthIsNone) {
   const TempFolder folder;
-  const auto source = open(folder, woods()).value();
+  const auto source = open_woods(folder, woods()).value();
   const auto events = test::read_all(*source).events;
   const auto seen = only<Observations>(events);
   ASSERT_EQ(seen.size(), 1U);
@@ -54,7 +54,7 @@ TEST(LostInTheWoods, ZeroIsNotSeenAndInvalidTruthIsNone) {
 
 TEST(LostInTheWoods, PlaceOfTheLaserComesFromTheFile) {
   const TempFolder folder;
-  const auto source = open(folder, woods()).value();
+  const auto source = open_woods(folder, woods()).value();
   using Setting = std::pair<std::string, std::string>;
   EXPECT_THAT(source->info().settings, Contains(Setting("sensor.x_m", "0.219")));
   ASSERT_EQ(source->info().landmarks.size(), 2U);
@@ -64,9 +64,9 @@ TEST(LostInTheWoods, PlaceOfTheLaserComesFromTheFile) {
 
 TEST(LostInTheWoods, ColumnsOfUnequalLengthAndTimeThatGoesBackAreNamed) {
   const TempFolder folder;
-  EXPECT_THAT(open(folder, woods(Eigen::MatrixXd{{0.0}, {0.1}, {0.2}})).error().message,
+  EXPECT_THAT(open_woods(folder, woods(Eigen::MatrixXd{{0.0}, {0.1}, {0.2}})).error().message,
               HasSubstr("dataset2.mat: variable v has 2 rows, t has 3"));
-  EXPECT_THAT(open(folder, woods(Eigen::MatrixXd{{0.0}, {-0.1}})).error().message,
+  EXPECT_THAT(open_woods(folder, woods(Eigen::MatrixXd{{0.0}, {-0.1}})).error().message,
               HasSubstr("variable t: row 2 goes back in time"));
 }
 

@@ -98,13 +98,13 @@ TEST(MapFiles, ReadsWhatAPersonWrote) {
   EXPECT_EQ(map->stamp, Stamp{Duration{1'500'000'000}});
 }
 
-struct Damage {
+struct MapDamage {
   const char* passage;
   const char* replacement;
   const char* error;
 };
 
-class DamagedMap : public testing::TestWithParam<Damage> {};
+class DamagedMap : public testing::TestWithParam<MapDamage> {};
 
 TEST_P(DamagedMap, IsAnErrorThatTellsWhere) {
   const auto map = parse_map(damaged(GetParam().passage, GetParam().replacement), "m");
@@ -115,30 +115,30 @@ TEST_P(DamagedMap, IsAnErrorThatTellsWhere) {
 INSTANTIATE_TEST_SUITE_P(
     MapFiles, DamagedMap,
     testing::Values(
-        Damage{"waymark_map: 1", "waymark_map: 2", "m:1: version '2' of the map format"},
-        Damage{"waymark_map: 1", "id,x_m,y_m", "m:1: expected `waymark_map:`"},
-        Damage{"stamp_s: 1.5", "stamp_s: now", "m:3: 'now' is not a number of seconds"},
-        Damage{"pose: 1 2 0.5", "pose: 1 nan 0.5", "m:4: 'nan' is not a finite number"},
-        Damage{"pose: 1 2 0.5", "pose: 1 2", "m:4: '' is not a finite number"},
-        Damage{"pose: 1 2 0.5", "pose: 1 2 3 4", "m:4: there is more in this line"},
-        Damage{"dimension: 2", "dimension: 4", "m:5: the dimension of a landmark is 2 or 3"},
-        Damage{"landmarks: 1", "landmarks: -1", "m:6: the number of landmarks cannot be negative"},
-        Damage{"landmarks: 1", "landmarks: 2000000000", "m:8: 'covariance:' is no kind of landmark"},
-        Damage{"marker 7", "tree 7", "m:7: 'tree' is no kind of landmark"},
-        Damage{"marker 7 3", "marker 7 -3", "m:7: the number of sightings cannot be negative"},
-        Damage{"1.5 2.5\n", "1.5 2.5 3.5\n", "m:7: there is more in this line"},
-        Damage{"covariance: 5", "covariance: 7",
-               "m:8: the covariance has size 7, but pose and landmarks need 5"},
-        Damage{"2 0 0 0\n", "2 0 inf 0\n", "m:10: 'inf' is not a finite number"},
-        Damage{"2 0 0 0\n", "2 0 0\n", "m:10: '' is not a finite number"},
-        Damage{"4 0.5\n", "4 50\n", "m: the covariance is not positive semi-definite"},
-        Damage{"\n5\nend\n", "\n-5\nend\n", "m: the covariance is not positive semi-definite"},
-        Damage{"\n5\nend\n", "\n5\n", "m: the file ends before the line `end`"},
-        Damage{"3 0 0\n4 0.5\n5\nend\n", "", "m:8: the file is too short"},
-        Damage{"4 0.5\n5\nend\n", "          \n          \n", "m: the file ends before all rows"},
-        Damage{"made_by: x\nstamp_s: 1.5\npose: 1 2 0.5\nlandmark_dimension: 2\nlandmarks: 1\n"
-               "marker 7 3 1.5 2.5\ncovariance: 5\n1 0 0 0 0\n2 0 0 0\n3 0 0\n4 0.5\n5\nend\n",
-               "", "m: the file ends before `made_by:`"}));
+        MapDamage{"waymark_map: 1", "waymark_map: 2", "m:1: version '2' of the map format"},
+        MapDamage{"waymark_map: 1", "id,x_m,y_m", "m:1: expected `waymark_map:`"},
+        MapDamage{"stamp_s: 1.5", "stamp_s: now", "m:3: 'now' is not a number of seconds"},
+        MapDamage{"pose: 1 2 0.5", "pose: 1 nan 0.5", "m:4: 'nan' is not a finite number"},
+        MapDamage{"pose: 1 2 0.5", "pose: 1 2", "m:4: '' is not a finite number"},
+        MapDamage{"pose: 1 2 0.5", "pose: 1 2 3 4", "m:4: there is more in this line"},
+        MapDamage{"dimension: 2", "dimension: 4", "m:5: the dimension of a landmark is 2 or 3"},
+        MapDamage{"landmarks: 1", "landmarks: -1", "m:6: the number of landmarks cannot be negative"},
+        MapDamage{"landmarks: 1", "landmarks: 2000000000", "m:8: 'covariance:' is no kind of landmark"},
+        MapDamage{"marker 7", "tree 7", "m:7: 'tree' is no kind of landmark"},
+        MapDamage{"marker 7 3", "marker 7 -3", "m:7: the number of sightings cannot be negative"},
+        MapDamage{"1.5 2.5\n", "1.5 2.5 3.5\n", "m:7: there is more in this line"},
+        MapDamage{"covariance: 5", "covariance: 7",
+                  "m:8: the covariance has size 7, but pose and landmarks need 5"},
+        MapDamage{"2 0 0 0\n", "2 0 inf 0\n", "m:10: 'inf' is not a finite number"},
+        MapDamage{"2 0 0 0\n", "2 0 0\n", "m:10: '' is not a finite number"},
+        MapDamage{"4 0.5\n", "4 50\n", "m: the covariance is not positive semi-definite"},
+        MapDamage{"\n5\nend\n", "\n-5\nend\n", "m: the covariance is not positive semi-definite"},
+        MapDamage{"\n5\nend\n", "\n5\n", "m: the file ends before the line `end`"},
+        MapDamage{"3 0 0\n4 0.5\n5\nend\n", "", "m:8: the file is too short"},
+        MapDamage{"4 0.5\n5\nend\n", "          \n          \n", "m: the file ends before all rows"},
+        MapDamage{"made_by: x\nstamp_s: 1.5\npose: 1 2 0.5\nlandmark_dimension: 2\nlandmarks: 1\n"
+                  "marker 7 3 1.5 2.5\ncovariance: 5\n1 0 0 0 0\n2 0 0 0\n3 0 0\n4 0.5\n5\nend\n",
+                  "", "m: the file ends before `made_by:`"}));
 
 TEST(MapFiles, CutAnywhereAMapIsRefused) {
   for (const int dimension : {2, 3}) {

@@ -30,7 +30,7 @@ std::string mat_run(double sign, const Eigen::MatrixXd& ranges) {
 
 const Eigen::MatrixXd kRanges{{10.5, 2.0, 5.0, 6.5}, {10.25, 2.0, 0.0, 7.5}};
 
-std::unique_ptr<Source> open(const TempFolder& folder, const std::string& bytes, bool fix = true) {
+std::unique_ptr<Source> open_plaza(const TempFolder& folder, const std::string& bytes, bool fix = true) {
   const auto file = MatFile::open(folder.write("Plaza7_.mat", bytes));
   EXPECT_TRUE(file.ok()) << file.error().message;
   EXPECT_TRUE(is_plaza(*file));
@@ -41,7 +41,7 @@ std::unique_ptr<Source> open(const TempFolder& folder, const std::string& bytes,
 
 TEST(Plaza, SumsOdometryUpAlongArcsFromTheFirstTruth) {
   const TempFolder folder;
-  const auto source = open(folder, mat_run(1.0, kRanges));
+  const auto source = open_plaza(folder, mat_run(1.0, kRanges));
   EXPECT_EQ(source->info().name, "Plaza7");
   const auto events = test::read_all(*source).events;
   const auto poses = only<OdometryPose>(events);
@@ -56,7 +56,7 @@ TEST(Plaza, SumsOdometryUpAlongArcsFromTheFirstTruth) {
 
 TEST(Plaza, RangesKeepTheirBeaconAndComeInTheOrderOfTime) {
   const TempFolder folder;
-  const auto source = open(folder, mat_run(1.0, kRanges));
+  const auto source = open_plaza(folder, mat_run(1.0, kRanges));
   const auto ranges = only<Observations>(test::read_all(*source).events);
   ASSERT_EQ(ranges.size(), 2U);
   EXPECT_EQ(ranges[0].first, parse_stamp("10.25"));
@@ -70,10 +70,10 @@ TEST(Plaza, RangesKeepTheirBeaconAndComeInTheOrderOfTime) {
 
 TEST(Plaza, RobotThatDrivesBackwardsGoesNegativeDistances) {
   const TempFolder folder;
-  const auto fixed = open(folder, mat_run(-1.0, kRanges));
+  const auto fixed = open_plaza(folder, mat_run(-1.0, kRanges));
   EXPECT_NEAR(only<OdometryPose>(test::read_all(*fixed).events)[1].second.T_odom_robot.x_m, -1.0, 1e-12);
   EXPECT_THAT(fixed->notes(), Contains(HasSubstr("drives backwards")));
-  const auto as_published = open(folder, mat_run(-1.0, kRanges), false);
+  const auto as_published = open_plaza(folder, mat_run(-1.0, kRanges), false);
   EXPECT_NEAR(only<OdometryPose>(test::read_all(*as_published).events)[1].second.T_odom_robot.x_m, 1.0,
               1e-12);
 }
@@ -85,7 +85,7 @@ TEST(Plaza, TextFilesGiveTheSameRunWithoutTruth) {
   const auto runs = plaza_text_runs(folder.path());
   ASSERT_EQ(runs.size(), 1U);
   const auto text = open_plaza_text(runs[0]).value();
-  const auto mat = open(folder, mat_run(1.0, kRanges));
+  const auto mat = open_plaza(folder, mat_run(1.0, kRanges));
   EXPECT_EQ(text->info().name, "Plaza7");
   const auto text_events = test::read_all(*text).events;
   const auto mat_events = test::read_all(*mat).events;
@@ -113,17 +113,17 @@ TEST(Plaza, ImpossibleRowsAreNamed) {
   EXPECT_THAT(error_of(Eigen::MatrixXd::Zero(2, 3)), HasSubstr("variable TD has 3 columns; expected 4"));
 }
 
-struct Recorded {
+struct RecordedRun {
   const char* file;
   std::size_t truth;
   std::size_t ranges;
   double final_error_m;  ///< of dead reckoning from the true start
 };
 
-class PlazaRecording : public testing::TestWithParam<Recorded> {};
+class PlazaRecording : public testing::TestWithParam<RecordedRun> {};
 
 TEST_P(PlazaRecording, HoldsTheKnownCountsAndDeadReckonsAsKnown) {
-  const Recorded& known = GetParam();
+  const RecordedRun& known = GetParam();
   WAYMARK_REQUIRE_DATA(known.file);
   const auto file = MatFile::open(test::data_path(known.file));
   ASSERT_TRUE(file.ok()) << file.error().message;
@@ -141,8 +141,8 @@ TEST_P(PlazaRecording, HoldsTheKnownCountsAndDeadReckonsAsKnown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Plaza, PlazaRecording,
-                         testing::Values(Recorded{"plaza/Plaza1_.mat", 9658, 3529, 4.45},
-                                         Recorded{"plaza/Plaza2_.mat", 4091, 1816, 19.90}),
+                         testing::Values(RecordedRun{"plaza/Plaza1_.mat", 9658, 3529, 4.45},
+                                         RecordedRun{"plaza/Plaza2_.mat", 4091, 1816, 19.90}),
                          [](const auto& run) { return "Run" + std::to_string(run.index + 1); });
 
 }  // namespace

@@ -20,7 +20,7 @@ Result<TextTable> table_of(std::string text, const TableLayout& layout = kWheels
 }
 
 /// The first error when all rows are read as (stamp, number, number); empty if there is none.
-std::string error_of(std::string text, const TableLayout& layout = kWheels) {
+std::string table_error(std::string text, const TableLayout& layout = kWheels) {
   auto table = table_of(std::move(text), layout);
   if (!table) return table.error().message;
   while (table->next()) {
@@ -62,10 +62,10 @@ TEST(TextTable, StampsAreExact) {
 }
 
 TEST(TextTable, EqualStampsAreInOrder) {
-  EXPECT_EQ(error_of("stamp_s,left_rad,right_rad\n1,2,3\n1,2,3\n"), "");
+  EXPECT_EQ(table_error("stamp_s,left_rad,right_rad\n1,2,3\n1,2,3\n"), "");
 }
 
-TEST(TextTable, LastRowMayLackItsEnd) { EXPECT_EQ(error_of("stamp_s,left_rad,right_rad\n1,2,3"), ""); }
+TEST(TextTable, LastRowMayLackItsEnd) { EXPECT_EQ(table_error("stamp_s,left_rad,right_rad\n1,2,3"), ""); }
 
 struct BadTable {
   const char* rows;
@@ -76,7 +76,7 @@ class BadRows : public testing::TestWithParam<BadTable> {};
 
 TEST_P(BadRows, AreErrorsWithFileLineAndWhatWouldBeRight) {
   const std::string header = "stamp_s,left_rad,right_rad\n";
-  EXPECT_EQ(error_of(header + GetParam().rows), GetParam().error);
+  EXPECT_EQ(table_error(header + GetParam().rows), GetParam().error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -101,16 +101,18 @@ INSTANTIATE_TEST_SUITE_P(
                  "in the order of time"}));
 
 TEST(TextTable, HeaderErrorsNameWhatIsWrong) {
-  EXPECT_EQ(error_of(""), "wheels.csv: the file is empty; its first line must be stamp_s,left_rad,right_rad");
-  EXPECT_EQ(error_of("stamp_s,left_rad\n"),
+  EXPECT_EQ(table_error(""),
+            "wheels.csv: the file is empty; its first line must be stamp_s,left_rad,right_rad");
+  EXPECT_EQ(table_error("stamp_s,left_rad\n"),
             "wheels.csv:1: column right_rad is missing; the columns are stamp_s,left_rad,right_rad");
-  EXPECT_THAT(error_of("stamp_s,left_rda,right_rad\n"), HasSubstr("'left_rda', did you mean left_rad?"));
-  EXPECT_THAT(error_of("stamp_s,left_rad,left_rad,right_rad\n"), HasSubstr("left_rad stands here twice"));
-  EXPECT_THAT(error_of("1.0,2.0,3.0\n"), HasSubstr("unknown column '1.0'"));
+  EXPECT_THAT(table_error("stamp_s,left_rda,right_rad\n"), HasSubstr("'left_rda', did you mean left_rad?"));
+  EXPECT_THAT(table_error("stamp_s,left_rad,left_rad,right_rad\n"), HasSubstr("left_rad stands here twice"));
+  EXPECT_THAT(table_error("1.0,2.0,3.0\n"), HasSubstr("unknown column '1.0'"));
 }
 
 TEST(TextTable, WithoutHeaderTheColumnsAreNamedInErrors) {
-  EXPECT_EQ(error_of("1 2\n", kBlank), "wheels.csv:1: expected 3 columns (stamp_s,v_mps,w_radps), found 2");
+  EXPECT_EQ(table_error("1 2\n", kBlank),
+            "wheels.csv:1: expected 3 columns (stamp_s,v_mps,w_radps), found 2");
 }
 
 TEST(TextTable, FirstErrorEndsTheReading) {

@@ -27,7 +27,7 @@ const Eigen::MatrixXd kTree{{12.5}, {kPi}, {0.3}};
 const Eigen::MatrixXd kNone = Eigen::MatrixXd::Zero(3, 0);
 const Eigen::MatrixXd kU{{2.0, 3.0}, {0.1, -0.2}};
 
-Result<std::unique_ptr<Source>> open(const TempFolder& folder, const std::string& bytes) {
+Result<std::unique_ptr<Source>> open_victoria_park(const TempFolder& folder, const std::string& bytes) {
   const auto file = MatFile::open(folder.write(kVictoriaParkLog, bytes));
   if (!file) return file.error();
   EXPECT_TRUE(is_victoria_park(*file));
@@ -44,7 +44,7 @@ std::string fixes_bytes() {
 
 TEST(VictoriaPark, ReadsSteeringAndTreesWithBearingsFromAhead) {
   const TempFolder folder;
-  const auto source = open(folder, log_bytes({kTree, kNone}, kU)).value();
+  const auto source = open_victoria_park(folder, log_bytes({kTree, kNone}, kU)).value();
   const auto events = test::read_all(*source).events;
   const auto steering = only<Steering>(events);
   ASSERT_EQ(steering.size(), 2U);
@@ -65,7 +65,7 @@ TEST(VictoriaPark, ReadsSteeringAndTreesWithBearingsFromAhead) {
 TEST(VictoriaPark, TruthIsOfTheAntennaAndWithoutHeading) {
   const TempFolder folder;
   folder.write("aa3_gpsx.mat", fixes_bytes());
-  const auto source = open(folder, log_bytes({kTree, kNone}, kU)).value();
+  const auto source = open_victoria_park(folder, log_bytes({kTree, kNone}, kU)).value();
   const auto truth = only<Truth>(test::read_all(*source).events);
   ASSERT_EQ(truth.size(), 1U);
   EXPECT_EQ(truth[0].first, stamp_from_seconds(1.2));
@@ -78,7 +78,9 @@ TEST(VictoriaPark, TruthIsOfTheAntennaAndWithoutHeading) {
 
 TEST(VictoriaPark, WrongShapesAndDamageAreNamed) {
   const TempFolder folder;
-  const auto error_of = [&folder](const std::string& bytes) { return open(folder, bytes).error().message; };
+  const auto error_of = [&folder](const std::string& bytes) {
+    return open_victoria_park(folder, bytes).error().message;
+  };
   EXPECT_THAT(error_of(log_bytes({kTree}, kU)), HasSubstr("variable zt has 1 values for 2 times"));
   EXPECT_THAT(error_of(log_bytes({kTree, Eigen::MatrixXd::Zero(2, 1)}, kU)),
               HasSubstr("variable zt: cell 2 has 2 rows; expected 3 (range m, bearing rad, diameter m)"));

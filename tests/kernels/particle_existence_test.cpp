@@ -10,7 +10,7 @@ namespace {
 
 using test::ParticleScene;
 
-ParticleScene make_scene(std::size_t count) {
+ParticleScene existence_scene(std::size_t count) {
   return {count, LandmarkForm::kPoint, SightingKind::kRangeBearing, 1, 5};
 }
 
@@ -19,7 +19,7 @@ WAYMARK_ON_EVERY_INSTRUCTION_SET(ParticleExistence);
 
 TEST_P(ParticleExistence, MissesAsTheScalarFormula) {
   for (const std::size_t count : {1U, 7U, 16U, 37U}) {
-    ParticleScene scene = make_scene(count);
+    ParticleScene scene = existence_scene(count);
     float* const fast = scene.columns().add();
     float* const plain = scene.columns().add();
     for (std::size_t i = 0; i < count; ++i) fast[i] = plain[i] = static_cast<float>(i % 4);

@@ -18,7 +18,7 @@ namespace {
 using test::Columns;
 using test::matrix_near;
 
-constexpr std::size_t kCount = 37;
+constexpr std::size_t kParticles = 37;
 constexpr Increment kExpected{0.3F, -0.1F, 0.4F};
 
 /// World poses far from the origin.
@@ -42,13 +42,13 @@ class ParticlePoses : public test::OnEveryInstructionSet {};
 WAYMARK_ON_EVERY_INSTRUCTION_SET(ParticlePoses);
 
 TEST_P(ParticlePoses, AreLoadedToTheLastDigitOfAFloatFarFromTheOrigin) {
-  const World world(kCount);
-  Columns columns(kCount);
+  const World world(kParticles);
+  Columns columns(kParticles);
   const PoseColumns fast = columns.add_poses();
   const PoseColumns plain = columns.add_poses();
-  load_poses(world.read(), 1e6, -2e6, fast, kCount);
-  reference::load_poses(world.read(), 1e6, -2e6, plain, kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  load_poses(world.read(), 1e6, -2e6, fast, kParticles);
+  reference::load_poses(world.read(), 1e6, -2e6, plain, kParticles);
+  for (std::size_t i = 0; i < kParticles; ++i) {
     EXPECT_EQ(fast.x[i], plain.x[i]);
     EXPECT_EQ(fast.y[i], static_cast<float>(world.y[i] + 2e6));
     EXPECT_NEAR(fast.cos[i], std::cos(world.theta[i]), 3e-7);
@@ -58,13 +58,13 @@ TEST_P(ParticlePoses, AreLoadedToTheLastDigitOfAFloatFarFromTheOrigin) {
 }
 
 TEST_P(ParticlePoses, SensorsStandWhereTheyAreMounted) {
-  const World world(kCount);
-  Columns columns(kCount);
+  const World world(kParticles);
+  Columns columns(kParticles);
   const PoseColumns robots = columns.add_poses();
   const PoseColumns sensors = columns.add_poses();
-  load_poses(world.read(), 1e6, -2e6, robots, kCount);
-  place_sensors(robots, {0.4F, -0.3F, 0.8F, 0.6F}, sensors, kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  load_poses(world.read(), 1e6, -2e6, robots, kParticles);
+  place_sensors(robots, {0.4F, -0.3F, 0.8F, 0.6F}, sensors, kParticles);
+  for (std::size_t i = 0; i < kParticles; ++i) {
     const Pose2 expected = Pose2{robots.x[i], robots.y[i], world.theta[i]} * Pose2{0.4, -0.3, 0.0};
     EXPECT_NEAR(sensors.x[i], expected.x_m, 1e-6);
     EXPECT_NEAR(sensors.y[i], expected.y_m, 1e-6);
@@ -88,28 +88,29 @@ std::array<double, 3> plain_normals(const DrawKey& key, std::uint32_t particle) 
 
 TEST_P(ParticlePoses, NormalsAreThoseOfTheScalarGenerator) {
   const DrawKey key{0x123456789ABCDEF0U, 1, 0x100000007U, 256};
-  Columns columns(kCount);
+  Columns columns(kParticles);
   float* const n[]{columns.add(), columns.add(), columns.add()};
-  draw_normals(key, n[0], n[1], n[2], kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  draw_normals(key, n[0], n[1], n[2], kParticles);
+  for (std::size_t i = 0; i < kParticles; ++i) {
     const auto expected = plain_normals(key, static_cast<std::uint32_t>(256 + i));
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(n[k][i], expected[k], 2e-6) << i;
   }
 }
 
 TEST_P(ParticlePoses, DrawAsTheScalarFormulaDoes) {
-  test::ParticleScene scene(kCount, LandmarkForm::kPoint, SightingKind::kRange, 1, 1);
+  test::ParticleScene scene(kParticles, LandmarkForm::kPoint, SightingKind::kRange, 1, 1);
   float* const n[]{scene.columns().add(), scene.columns().add(), scene.columns().add()};
-  draw_normals({5}, n[0], n[1], n[2], kCount);
-  World fast(kCount);
-  World plain(kCount);
+  draw_normals({5}, n[0], n[1], n[2], kParticles);
+  World fast(kParticles);
+  World plain(kParticles);
   const PoseColumns robots = scene.columns().add_poses();
   const PoseColumns plain_robots = scene.columns().add_poses();
-  load_poses(fast.read(), 1e6, -2e6, robots, kCount);
-  load_poses(plain.read(), 1e6, -2e6, plain_robots, kCount);
-  draw_poses(scene.increments, kExpected, n[0], n[1], n[2], robots, fast.move(), kCount);
-  reference::draw_poses(scene.increments, kExpected, n[0], n[1], n[2], plain_robots, plain.move(), kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
+  load_poses(fast.read(), 1e6, -2e6, robots, kParticles);
+  load_poses(plain.read(), 1e6, -2e6, plain_robots, kParticles);
+  draw_poses(scene.increments, kExpected, n[0], n[1], n[2], robots, fast.move(), kParticles);
+  reference::draw_poses(scene.increments, kExpected, n[0], n[1], n[2], plain_robots, plain.move(),
+                        kParticles);
+  for (std::size_t i = 0; i < kParticles; ++i) {
     EXPECT_TRUE(matrix_near(difference(fast.pose(i), plain.pose(i)), Eigen::Vector3d::Zero(), 1e-6));
     EXPECT_NEAR(robots.x[i], fast.x[i] - 1e6, 2e-6);
     EXPECT_NEAR(robots.cos[i], std::cos(fast.theta[i]), 1e-6);
@@ -193,17 +194,17 @@ TEST(DrawPoses, AHeadingThatWasWrongFromTheStartSwingsTheEnd) {
 }
 
 TEST(DrawPoses, ARobotThatStandsStillIsNotMovedByABit) {
-  World world(kCount);
-  const World before(kCount);
-  Columns columns(kCount);
+  World world(kParticles);
+  const World before(kParticles);
+  Columns columns(kParticles);
   const IncrementColumns increments = columns.add_increments();
-  fill_increments({}, increments, kCount);
+  fill_increments({}, increments, kParticles);
   const PoseColumns robots = columns.add_poses();
-  load_poses(world.read(), 1e6, -2e6, robots, kCount);
+  load_poses(world.read(), 1e6, -2e6, robots, kParticles);
   float* const n[]{columns.add(), columns.add(), columns.add()};
-  draw_normals({5}, n[0], n[1], n[2], kCount);
-  draw_poses(increments, {}, n[0], n[1], n[2], robots, world.move(), kCount);
-  for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(world.pose(i), before.pose(i));
+  draw_normals({5}, n[0], n[1], n[2], kParticles);
+  draw_poses(increments, {}, n[0], n[1], n[2], robots, world.move(), kParticles);
+  for (std::size_t i = 0; i < kParticles; ++i) EXPECT_EQ(world.pose(i), before.pose(i));
 }
 
 }  // namespace

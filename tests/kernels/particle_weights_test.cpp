@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kCounts[]{1, 5, 16, 41};
+constexpr std::size_t kWeightCounts[]{1, 5, 16, 41};
 
 class ParticleWeights : public test::OnEveryInstructionSet {
  protected:
@@ -36,7 +36,7 @@ TEST_P(ParticleWeights, TheLargestIsFoundAmongNumbers) {
 }
 
 TEST_P(ParticleWeights, ExponentiateAsTheScalarFormulaDoes) {
-  for (const std::size_t count : kCounts) {
+  for (const std::size_t count : kWeightCounts) {
     AlignedArray<double> fast = log_weights(count);
     AlignedArray<double> plain(fast.size()), weight(fast.size()), plain_weight(fast.size());
     std::copy_n(fast.data(), fast.size(), plain.data());
@@ -52,7 +52,7 @@ TEST_P(ParticleWeights, ExponentiateAsTheScalarFormulaDoes) {
 }
 
 TEST_P(ParticleWeights, SumsOfPowersAreTheScalarOnes) {
-  for (const std::size_t count : kCounts) {
+  for (const std::size_t count : kWeightCounts) {
     const AlignedArray<double> values = log_weights(count);
     for (const double power : {1.0, 0.01, 1e-9}) {
       const auto fast = sum_powers(values.data(), power, count);
@@ -64,7 +64,7 @@ TEST_P(ParticleWeights, SumsOfPowersAreTheScalarOnes) {
 }
 
 TEST_P(ParticleWeights, SumsOfPosesAreTheScalarOnes) {
-  for (const std::size_t count : kCounts) {
+  for (const std::size_t count : kWeightCounts) {
     const std::size_t padded = round_up_particles(count);
     AlignedArray<double> x(padded), y(padded), theta(padded), weight(padded);
     for (std::size_t i = 0; i < padded; ++i) {

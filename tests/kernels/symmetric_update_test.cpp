@@ -11,7 +11,7 @@ using test::same_bits;
 using test::triangle_place;
 
 // Sums of a few dozen products of order one.
-constexpr double kTolerance = 1e-12;
+constexpr double kUpdateTolerance = 1e-12;
 
 class SymmetricUpdate : public test::OnEveryInstructionSet {
  protected:
@@ -25,11 +25,11 @@ class SymmetricUpdate : public test::OnEveryInstructionSet {
     Panel P = before, expected = before;
     symmetric_downdate(P.data(), P.ld(), n, W.data(), W.ld(), D, {0, n});
     reference::symmetric_update(expected.data(), P.ld(), n, W.data(), W.ld(), D, nullptr, nullptr);
-    EXPECT_TRUE(panels_near(P, expected, before, triangle_place, kTolerance)) << "D = " << D;
+    EXPECT_TRUE(panels_near(P, expected, before, triangle_place, kUpdateTolerance)) << "D = " << D;
     Panel sheared = before, expected_sheared = before;
     symmetric_update(sheared.data(), P.ld(), n, W.data(), W.ld(), D, d, e, {0, n});
     reference::symmetric_update(expected_sheared.data(), P.ld(), n, W.data(), W.ld(), D, d, e);
-    EXPECT_TRUE(panels_near(sheared, expected_sheared, before, triangle_place, kTolerance))
+    EXPECT_TRUE(panels_near(sheared, expected_sheared, before, triangle_place, kUpdateTolerance))
         << "shear, D = " << D;
   }
 };
@@ -57,7 +57,7 @@ TEST_P(SymmetricUpdate, ASymmetricProductOfTwoPanelsIsTheSameAsOfOne) {
     symmetric_product_update(P.data(), P.ld(), n, A.data(), B.data(), A.ld(), D, d, e, {0, n});
     reference::symmetric_update(expected.data(), P.ld(), n, A.data(), A.ld(), D, nullptr, nullptr);
     reference::symmetric_update(expected.data(), P.ld(), n, A.data(), A.ld(), D, d, e);
-    EXPECT_TRUE(panels_near(P, expected, before, triangle_place, kTolerance)) << "D = " << D;
+    EXPECT_TRUE(panels_near(P, expected, before, triangle_place, kUpdateTolerance)) << "D = " << D;
   }
 }
 
@@ -70,7 +70,8 @@ TEST_P(SymmetricUpdate, SubtractsAProductFromWholeRows) {
       for (std::size_t i = 0; i < rows; ++i)
         for (std::size_t j = 0; j < n; ++j)
           for (std::size_t k = 0; k < 5; ++k) expected(i, j) -= A(k, i) * B(k, j);
-      EXPECT_TRUE(panels_near(P, expected, before, test::panel_place, kTolerance)) << rows << " x " << n;
+      EXPECT_TRUE(panels_near(P, expected, before, test::panel_place, kUpdateTolerance))
+          << rows << " x " << n;
     }
   }
 }

@@ -7,7 +7,7 @@
 namespace waymark::kernels {
 namespace {
 
-constexpr std::size_t kCount = 160;
+constexpr std::size_t kRays = 160;
 
 /// A rip map of random texels, whose levels are not reductions of one another.
 struct RandomTexture {
@@ -60,8 +60,8 @@ TexturedRectangle random_rectangle(const RandomTexture& texture, std::int32_t id
 
 class TraceRays : public test::OnEveryInstructionSet {
  protected:
-  TraceRays() : x_(kCount), y_(kCount), grey_(kCount), id_(kCount) {
-    for (std::size_t i = 0; i < kCount; ++i) {
+  TraceRays() : x_(kRays), y_(kRays), grey_(kRays), id_(kRays) {
+    for (std::size_t i = 0; i < kRays; ++i) {
       x_[i] = between(random_, -0.6, 0.6);
       y_[i] = between(random_, -0.5, 0.5);
     }
@@ -76,8 +76,8 @@ WAYMARK_ON_EVERY_INSTRUCTION_SET(TraceRays);
 TEST_P(TraceRays, EqualsThePlainFormulaToTheLastBit) {
   const RandomTexture wide({7, 5, 5}, random_);
   const RandomTexture high({4, 8, 4}, random_);
-  AlignedArray<float> grey(kCount);
-  AlignedArray<std::int32_t> id(kCount);
+  AlignedArray<float> grey(kRays);
+  AlignedArray<std::int32_t> id(kRays);
   int hits = 0;
   for (const float spacing : {0.0F, 0.004F, 0.05F, 1.0F}) {
     for (std::size_t n = 0; n < 20; ++n) {
@@ -86,9 +86,9 @@ TEST_P(TraceRays, EqualsThePlainFormulaToTheLastBit) {
         rectangles.push_back(
             random_rectangle(k % 2 == 0 ? wide : high, static_cast<std::int32_t>(100 + k), random_));
       const Rays rays{x_.data(), y_.data(), spacing, 0.7F * spacing};
-      trace_rays(rays, kCount, rectangles.data(), n, grey_.data(), id_.data());
-      reference::trace_rays(rays, kCount, rectangles.data(), n, grey.data(), id.data());
-      for (std::size_t i = 0; i < kCount; ++i) {
+      trace_rays(rays, kRays, rectangles.data(), n, grey_.data(), id_.data());
+      reference::trace_rays(rays, kRays, rectangles.data(), n, grey.data(), id.data());
+      for (std::size_t i = 0; i < kRays; ++i) {
         ASSERT_EQ(id_[i], id[i]);
         ASSERT_EQ(grey_[i], grey[i]) << "ray " << i << " among " << n << ", spacing " << spacing;
         if (id[i] >= 0) ++hits;
@@ -117,8 +117,8 @@ TEST_P(TraceRays, SeesTheNearerOfTwoAndNothingBeside) {
   far.s_max = 4.0F;
   far.id = 9;
   const std::vector rectangles{far, near};
-  trace_rays({x_.data(), y_.data(), 0.0F, 0.0F}, kCount, rectangles.data(), 2, grey_.data(), id_.data());
-  for (std::size_t i = 0; i < kCount; ++i) {
+  trace_rays({x_.data(), y_.data(), 0.0F, 0.0F}, kRays, rectangles.data(), 2, grey_.data(), id_.data());
+  for (std::size_t i = 0; i < kRays; ++i) {
     const float distance = std::abs(x_[i]);
     ASSERT_EQ(id_[i], distance <= 0.1F ? 7 : distance <= 0.2F ? 9 : -1);
     ASSERT_TRUE(id_[i] >= 0 || grey_[i] == 0.0F);

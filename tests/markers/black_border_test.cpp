@@ -7,7 +7,7 @@
 namespace waymark::markers {
 namespace {
 
-constexpr int kCells = 6;
+constexpr int kBorderCells = 6;
 
 TEST(BlackBorder, IsThereOnEveryMarker) {
   const Camera camera(test::marker_camera());
@@ -16,7 +16,7 @@ TEST(BlackBorder, IsThereOnEveryMarker) {
     const MarkerPose pose = test::random_marker_pose(random, 0.9);
     GreyImage image(640, 480, 120);
     test::draw_marker(image, camera, pose, 0.2, number);
-    EXPECT_TRUE(has_black_border(image, test::corners_of(camera, pose, 0.2), kCells)) << number;
+    EXPECT_TRUE(has_black_border(image, test::corners_of(camera, pose, 0.2), kBorderCells)) << number;
   }
 }
 
@@ -25,7 +25,7 @@ TEST(BlackBorder, IsNotOnABareWall) {
   const Camera camera(test::marker_camera());
   MarkerPose pose;
   pose.p_camera_marker = {0.0, 0.0, 2.0};
-  EXPECT_FALSE(has_black_border(image, test::corners_of(camera, pose, 0.2), kCells));
+  EXPECT_FALSE(has_black_border(image, test::corners_of(camera, pose, 0.2), kBorderCells));
 }
 
 TEST(BlackBorder, IsNotWherePaperIsMissing) {
@@ -38,7 +38,7 @@ TEST(BlackBorder, IsNotWherePaperIsMissing) {
   for (int v = 0; v < 480; ++v)
     for (int u = 0; u < 640; ++u)
       if (u < corners[0].x() || v < corners[0].y()) image(u, v) = 20;
-  EXPECT_FALSE(has_black_border(image, corners, kCells));
+  EXPECT_FALSE(has_black_border(image, corners, kBorderCells));
 }
 
 }  // namespace

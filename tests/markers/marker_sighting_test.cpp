@@ -14,9 +14,9 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double kSize_m = 0.2;
+constexpr double kMarker_m = 0.2;
 
-MarkerOptions options() { return {.dictionary = "4x4_50", .size_m = kSize_m, .mount_sigma_deg = 0.0}; }
+MarkerOptions options() { return {.dictionary = "4x4_50", .size_m = kMarker_m, .mount_sigma_deg = 0.0}; }
 
 MarkerSighter sighter(const MarkerOptions& how) {
   return {Camera(test::marker_camera()), how, *marker_set(how)};
@@ -58,8 +58,8 @@ TEST(MarkerSighting, OfADrawnMarkerIsWhereItIs) {
   for (int i = 0; i < 20; ++i) {
     const MarkerPose pose = test::random_marker_pose(random, 0.9);
     GreyImage image(640, 480, 120);
-    test::draw_marker(image, camera, pose, kSize_m, i);
-    const auto seen = sight.sight(image, {i, test::corners_of(camera, pose, kSize_m)});
+    test::draw_marker(image, camera, pose, kMarker_m, i);
+    const auto seen = sight.sight(image, {i, test::corners_of(camera, pose, kMarker_m)});
     ASSERT_TRUE(std::holds_alternative<Observation>(seen)) << i;
     const auto& observation = std::get<Observation>(seen);
     EXPECT_EQ(observation.id, (LandmarkId{LandmarkId::Family::kMarker, i}));
@@ -82,7 +82,7 @@ TEST(MarkerSighting, CovarianceIsHonest) {
   double sum = 0.0;
   for (int i = 0; i < kDraws; ++i) {
     const MarkerPose pose = test::random_marker_pose(random, 0.7);
-    RefinedCorners corners{test::corners_of(camera, pose, kSize_m), 0.3 * CornerCovariance::Identity()};
+    RefinedCorners corners{test::corners_of(camera, pose, kMarker_m), 0.3 * CornerCovariance::Identity()};
     const double noise_px = how.side_sigma_px * std::sqrt(0.3);
     for (auto& corner : corners.corners_px) corner += noise_px * Vector2d(random.normal(), random.normal());
     const auto seen = sight.sight(corners, 1);
@@ -103,7 +103,8 @@ TEST(MarkerSighting, FarMarkersAreLessCertain) {
   for (const double depth_m : {1.0, 2.0, 4.0}) {
     MarkerPose pose;
     pose.p_camera_marker = {0.1, 0.0, depth_m};
-    const auto seen = sight.sight({test::corners_of(camera, pose, kSize_m), CornerCovariance::Identity()}, 1);
+    const auto seen =
+        sight.sight({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
     const double variance = (*std::get<Observation>(seen).covariance)(0, 0);
     EXPECT_GT(variance, 3.0 * last);
     last = variance;
@@ -114,7 +115,8 @@ TEST(MarkerSighting, AShakingMountMovesTheBearing) {
   const Camera camera(test::marker_camera());
   MarkerPose pose;
   pose.p_camera_marker = {0.1, 0.0, 2.0};
-  const RefinedCorners corners{test::corners_of(camera, pose, kSize_m), 1e-6 * CornerCovariance::Identity()};
+  const RefinedCorners corners{test::corners_of(camera, pose, kMarker_m),
+                               1e-6 * CornerCovariance::Identity()};
   MarkerOptions how = options();
   how.mount_sigma_deg = 0.1;
   const auto seen = sighter(how).sight(corners, 1);
@@ -129,7 +131,8 @@ TEST(MarkerSighting, RefusesMarkersSeenEdgeOn) {
     MarkerPose pose;
     pose.p_camera_marker = {0.0, 0.0, 1.0};
     pose.R_camera_marker = Eigen::AngleAxisd(to_radians(tilt_deg), Vector3d::UnitY()).toRotationMatrix();
-    const auto seen = sight.sight({test::corners_of(camera, pose, kSize_m), CornerCovariance::Identity()}, 1);
+    const auto seen =
+        sight.sight({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
     const auto* why = std::get_if<Refusal>(&seen);
     EXPECT_EQ(why != nullptr && *why == Refusal::kEdgeOn, tilt_deg > 75.0) << tilt_deg;
   }

@@ -13,7 +13,7 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
-constexpr double kSize_m = 0.2;
+constexpr double kSide_m = 0.2;
 
 MarkerPose moved(const MarkerPose& pose, const Vector6d& step) {
   MarkerPose result = pose;
@@ -40,10 +40,10 @@ TEST(PlanarPose, JacobianIsThatOfTheReprojection) {
     const MarkerPose pose = test::random_marker_pose(random, 1.2);
     const auto numeric = test::numeric_jacobian(
         [&](const Vector6d& step) -> Vector8d {
-          return reproject(camera, moved(pose, step), kSize_m)->pixels;
+          return reproject(camera, moved(pose, step), kSide_m)->pixels;
         },
         Vector6d(Vector6d::Zero()));
-    EXPECT_TRUE(test::matrix_near(reproject(camera, pose, kSize_m)->dpixels_dpose, numeric, 1e-4));
+    EXPECT_TRUE(test::matrix_near(reproject(camera, pose, kSide_m)->dpixels_dpose, numeric, 1e-4));
   }
 }
 
@@ -52,8 +52,8 @@ TEST(PlanarPose, OfExactCornersIsExact) {
   RandomStream random(2, StreamPurpose::kWorld);
   for (int i = 0; i < 200; ++i) {
     const MarkerPose truth = test::random_marker_pose(random, 1.2);
-    const RefinedCorners corners{test::corners_of(camera, truth, kSize_m), CornerCovariance::Identity()};
-    const auto poses = estimate_marker_poses(camera, corners, kSize_m);
+    const RefinedCorners corners{test::corners_of(camera, truth, kSide_m), CornerCovariance::Identity()};
+    const auto poses = estimate_marker_poses(camera, corners, kSide_m);
     ASSERT_TRUE(poses.has_value());
     EXPECT_LT(poses->best.error, 1e-9);
     EXPECT_LE(poses->best.error, poses->other.error);
@@ -67,18 +67,18 @@ TEST(PlanarPose, BothAreMinima) {
   RandomStream random(3, StreamPurpose::kWorld);
   for (int i = 0; i < 50; ++i) {
     const MarkerPose truth = test::random_marker_pose(random, 1.0);
-    RefinedCorners corners{test::corners_of(camera, truth, kSize_m), CornerCovariance::Identity()};
+    RefinedCorners corners{test::corners_of(camera, truth, kSide_m), CornerCovariance::Identity()};
     Vector8d z;
     for (std::size_t k = 0; k < 4; ++k) {
       corners.corners_px[k] += Eigen::Vector2d(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
       z.segment<2>(static_cast<Eigen::Index>(2 * k)) = corners.corners_px[k];
     }
-    const auto poses = estimate_marker_poses(camera, corners, kSize_m);
+    const auto poses = estimate_marker_poses(camera, corners, kSide_m);
     ASSERT_TRUE(poses.has_value());
     for (const MarkerPose& pose : {poses->best, poses->other})
       for (Eigen::Index axis = 0; axis < 6; ++axis)
         for (const double step : {1e-4, -1e-4}) {
-          const Vector8d r = z - reproject(camera, moved(pose, step * Vector6d::Unit(axis)), kSize_m)->pixels;
+          const Vector8d r = z - reproject(camera, moved(pose, step * Vector6d::Unit(axis)), kSide_m)->pixels;
           EXPECT_GE(r.squaredNorm(), pose.error - 1e-3);
         }
   }
@@ -96,11 +96,11 @@ TEST(PlanarPose, InformationIsHonest) {
   truth.R_camera_marker = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitY()).toRotationMatrix();
   double sum = 0.0;
   for (int i = 0; i < kDraws; ++i) {
-    RefinedCorners corners{test::corners_of(camera, truth, kSize_m),
+    RefinedCorners corners{test::corners_of(camera, truth, kSide_m),
                            kNoise_px * kNoise_px * CornerCovariance::Identity()};
     for (auto& corner : corners.corners_px)
       corner += kNoise_px * Eigen::Vector2d(random.normal(), random.normal());
-    const auto poses = estimate_marker_poses(camera, corners, kSize_m);
+    const auto poses = estimate_marker_poses(camera, corners, kSide_m);
     ASSERT_TRUE(poses.has_value());
     const Vector6d e = difference(truth, poses->best);
     sum += e.dot(poses->best.information * e);
@@ -112,13 +112,13 @@ TEST(PlanarPose, NeedsASquareInFront) {
   const Camera camera(test::marker_camera());
   RefinedCorners corners{{}, CornerCovariance::Identity()};
   corners.corners_px.fill(Eigen::Vector2d(100.0, 100.0));
-  EXPECT_FALSE(estimate_marker_poses(camera, corners, kSize_m).has_value());
+  EXPECT_FALSE(estimate_marker_poses(camera, corners, kSide_m).has_value());
   // Seen from behind: counter-clockwise.
   MarkerPose pose;
   pose.p_camera_marker = {0.0, 0.0, 2.0};
-  corners.corners_px = test::corners_of(camera, pose, kSize_m);
+  corners.corners_px = test::corners_of(camera, pose, kSide_m);
   std::swap(corners.corners_px[1], corners.corners_px[3]);
-  EXPECT_FALSE(estimate_marker_poses(camera, corners, kSize_m).has_value());
+  EXPECT_FALSE(estimate_marker_poses(camera, corners, kSide_m).has_value());
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ using test::random_pose;
 using test::to_pose;
 using test::to_vector;
 
-constexpr double kJacobianTolerance = 1e-6;
+constexpr double kPlanarTolerance = 1e-6;
 
-struct Scene {
+struct ObservedScene {
   Pose2 T_world_robot;
   Pose2 T_robot_sensor;
   Eigen::Vector2d p_world;
@@ -25,7 +25,7 @@ struct Scene {
 
 /// A robot anywhere, a sensor up to a metre off its origin, a landmark 0.3 m to 10 m from the sensor in any
 /// direction.
-Scene random_scene(RandomStream& random) {
+ObservedScene random_scene(RandomStream& random) {
   const Pose2 T_world_robot = random_pose(random);
   const Pose2 T_robot_sensor = random_pose(random, 1.4);
   const Eigen::Vector2d ray(random.uniform(0.3, 10.0), 0.0);
@@ -35,7 +35,7 @@ Scene random_scene(RandomStream& random) {
 
 /// The predicted measurement of the simplest form: the landmark in the sensor's own frame, in polar
 /// coordinates.
-Eigen::Vector2d plain_prediction(const Scene& scene) {
+Eigen::Vector2d plain_prediction(const ObservedScene& scene) {
   const Eigen::Vector2d p_sensor = (scene.T_world_robot * scene.T_robot_sensor).inverse() * scene.p_world;
   return {p_sensor.norm(), std::atan2(p_sensor.y(), p_sensor.x())};
 }
@@ -47,7 +47,7 @@ Eigen::Vector2d polar_difference(const Eigen::Vector2d& a, const Eigen::Vector2d
 TEST(RangeBearingModel, PredictsPolarCoordinatesInTheSensorFrame) {
   RandomStream random(1, StreamPurpose::kWorld);
   for (int i = 0; i < 500; ++i) {
-    const Scene scene = random_scene(random);
+    const ObservedScene scene = random_scene(random);
     const auto h = RangeBearingModel::linearize(scene.T_world_robot, scene.T_robot_sensor, scene.p_world);
     EXPECT_TRUE(
         matrix_near(polar_difference(h.predicted, plain_prediction(scene)), Eigen::Vector2d::Zero(), 1e-12));
@@ -58,7 +58,7 @@ TEST(RangeBearingModel, PredictsPolarCoordinatesInTheSensorFrame) {
 TEST(RangeBearingModel, JacobiansAgreeWithCentralDifferences) {
   RandomStream random(2, StreamPurpose::kWorld);
   for (int i = 0; i < 500; ++i) {
-    const Scene scene = random_scene(random);
+    const ObservedScene scene = random_scene(random);
     const auto h = RangeBearingModel::linearize(scene.T_world_robot, scene.T_robot_sensor, scene.p_world);
     const auto by_pose = [&](const Eigen::Vector3d& v) {
       return polar_difference(plain_prediction({to_pose(v), scene.T_robot_sensor, scene.p_world}),
@@ -68,8 +68,8 @@ TEST(RangeBearingModel, JacobiansAgreeWithCentralDifferences) {
       return polar_difference(plain_prediction({scene.T_world_robot, scene.T_robot_sensor, p}), h.predicted);
     };
     EXPECT_TRUE(
-        matrix_near(h.H_pose, numeric_jacobian(by_pose, to_vector(scene.T_world_robot)), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(h.H_landmark, numeric_jacobian(by_landmark, scene.p_world), kJacobianTolerance));
+        matrix_near(h.H_pose, numeric_jacobian(by_pose, to_vector(scene.T_world_robot)), kPlanarTolerance));
+    EXPECT_TRUE(matrix_near(h.H_landmark, numeric_jacobian(by_landmark, scene.p_world), kPlanarTolerance));
   }
 }
 
@@ -102,8 +102,8 @@ TEST(RangeBearingModel, JacobiansOfLocateAgreeWithCentralDifferences) {
       return RangeBearingModel::locate(T_world_robot, T_robot_sensor, {v.x(), v.y()}).p_world;
     };
     EXPECT_TRUE(
-        matrix_near(located.G_pose, numeric_jacobian(by_pose, to_vector(T_world_robot)), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(located.G_measurement, numeric_jacobian(by_measurement, z), kJacobianTolerance));
+        matrix_near(located.G_pose, numeric_jacobian(by_pose, to_vector(T_world_robot)), kPlanarTolerance));
+    EXPECT_TRUE(matrix_near(located.G_measurement, numeric_jacobian(by_measurement, z), kPlanarTolerance));
   }
 }
 

@@ -19,11 +19,11 @@ using test::random_pose;
 using test::to_pose;
 using test::to_vector;
 
-constexpr double kJacobianTolerance = 1e-3;  // entries of some hundred to some thousand
+constexpr double kPixelTolerance = 1e-3;  // entries of some hundred to some thousand
 
 /// A camera on a robot somewhere, and a point some metres away in its picture.
-struct Scene {
-  explicit Scene(RandomStream& random)
+struct PixelScene {
+  explicit PixelScene(RandomStream& random)
       : camera(random_camera(random)), T_world_robot(random_pose(random)), pose(camera.pose(T_world_robot)) {
     pixel = random_pixel(camera, random);
     const double depth_m = random.uniform(0.5, 10.0);
@@ -41,7 +41,7 @@ struct Scene {
 TEST(PointObservation, IsThePixelOnWhoseRayThePointLies) {
   RandomStream random(1, StreamPurpose::kWorld);
   for (int i = 0; i < 200; ++i) {
-    const Scene s(random);
+    const PixelScene s(random);
     const auto h = observe_point(s.camera, s.pose, s.p_world);
     ASSERT_TRUE(h);
     EXPECT_TRUE(matrix_near(h->predicted, s.pixel, 1e-8));
@@ -65,7 +65,7 @@ TEST(PointObservation, IsTheArticlesFormulaForALevelCamera) {
 TEST(PointObservation, JacobiansAgreeWithCentralDifferences) {
   RandomStream random(2, StreamPurpose::kWorld);
   for (int i = 0; i < 300; ++i) {
-    const Scene s(random);
+    const PixelScene s(random);
     const auto h = observe_point(s.camera, s.pose, s.p_world);
     ASSERT_TRUE(h);
     const auto by_pose = [&](const Eigen::Vector3d& x) {
@@ -75,8 +75,8 @@ TEST(PointObservation, JacobiansAgreeWithCentralDifferences) {
       return observe_point(s.camera, s.pose, p)->predicted;
     };
     EXPECT_TRUE(
-        matrix_near(h->H_pose, numeric_jacobian(by_pose, to_vector(s.T_world_robot)), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(h->H_landmark, numeric_jacobian(by_point, s.p_world), kJacobianTolerance));
+        matrix_near(h->H_pose, numeric_jacobian(by_pose, to_vector(s.T_world_robot)), kPixelTolerance));
+    EXPECT_TRUE(matrix_near(h->H_landmark, numeric_jacobian(by_point, s.p_world), kPixelTolerance));
   }
 }
 
@@ -96,7 +96,7 @@ struct TwoViews {
     for (auto& x : x_second) x += random.uniform(-0.1, 0.1);
   }
 
-  Scene s;
+  PixelScene s;
   Eigen::Vector3d ray;
   Eigen::Vector3d x_second;
 };
@@ -136,9 +136,9 @@ TEST(RayObservation, JacobiansAgreeWithCentralDifferences) {
       return observe_ray(camera, pose, v.s.pose, ray)->predicted;
     };
     const Eigen::Vector3d x_first = to_vector(v.s.T_world_robot);
-    EXPECT_TRUE(matrix_near(h->H_pose, numeric_jacobian(by_pose, v.x_second), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(h->H_anchor, numeric_jacobian(by_anchor, x_first), kJacobianTolerance));
-    EXPECT_TRUE(matrix_near(h->H_ray, numeric_jacobian(by_ray, v.ray), kJacobianTolerance));
+    EXPECT_TRUE(matrix_near(h->H_pose, numeric_jacobian(by_pose, v.x_second), kPixelTolerance));
+    EXPECT_TRUE(matrix_near(h->H_anchor, numeric_jacobian(by_anchor, x_first), kPixelTolerance));
+    EXPECT_TRUE(matrix_near(h->H_ray, numeric_jacobian(by_ray, v.ray), kPixelTolerance));
   }
   EXPECT_GT(seen, 200);
 }

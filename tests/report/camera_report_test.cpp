@@ -14,7 +14,7 @@ using calibrate::View;
 
 /// Views of a board that is turned about one axis and then the other, exact but for one corner; one picture
 /// without a board, and two frames that nobody looks at.
-CameraReport sample() {
+CameraReport sample_camera() {
   const calibrate::Board board{.corners = {5, 4}, .square_m = 0.04};
   const Camera camera({.width_px = 320, .height_px = 240});
   std::vector<View> views;
@@ -42,19 +42,19 @@ CameraReport sample() {
 }
 
 TEST(CameraReport, IsOneFileWithoutAddresses) {
-  const std::string html = render_camera_report(sample());
+  const std::string html = render_camera_report(sample_camera());
   for (const char* load : {"http://", "https://", "src=\"", "@import", "url(", "fetch(", "XMLHttpRequest"})
     EXPECT_EQ(html.find(load), std::string::npos) << load;
 }
 
 TEST(CameraReport, SaysWhereItCannotBeWritten) {
-  const auto written = write_camera_report(sample(), "/nowhere/report.html");
+  const auto written = write_camera_report(sample_camera(), "/nowhere/report.html");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("/nowhere/report.html"), std::string::npos);
 }
 
 TEST(CameraReport, JsonHasEveryViewAndWhyTheSetIsWeak) {
-  const auto json = nlohmann::json::parse(camera_json_text(sample().calibration));
+  const auto json = nlohmann::json::parse(camera_json_text(sample_camera().calibration));
   EXPECT_EQ(json["views"].size(), 11U);
   EXPECT_EQ(json["views"][0]["verdict"], "used");
   EXPECT_EQ(json["views"][8]["why"], "no board");
@@ -67,7 +67,7 @@ TEST(CameraReport, JsonHasEveryViewAndWhyTheSetIsWeak) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(CameraPage, ShowsTheVerdictAndEveryPicture) {
-  const test::Page page = test::open_in_browser(render_camera_report(sample()));
+  const test::Page page = test::open_in_browser(render_camera_report(sample_camera()));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, "<figure"), 9U);

@@ -7,7 +7,7 @@
 namespace waymark {
 namespace {
 
-ConsistencyReport sample() {
+ConsistencyReport sample_consistency() {
   study::ConsistencyOptions options;
   options.runs = 2;
   options.steps = 30;
@@ -18,7 +18,7 @@ ConsistencyReport sample() {
 }
 
 TEST(ConsistencyReport, IsOneFileWithoutAddresses) {
-  const std::string html = render_consistency_report(sample());
+  const std::string html = render_consistency_report(sample_consistency());
   EXPECT_NE(html.find("Leon Sorokin"), std::string::npos);  // uPlot and its licence
   for (const char* load : {"http://", "https://", "src=\"", "@import", "url(", "fetch(", "XMLHttpRequest"})
     EXPECT_EQ(html.find(load), std::string::npos) << load;
@@ -33,7 +33,7 @@ TEST(ConsistencyReport, SaysWhereItCannotBeWritten) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(ConsistencyPage, ShowsAllModesForEachOdometry) {
-  const test::Page page = test::open_in_browser(render_consistency_report(sample()));
+  const test::Page page = test::open_in_browser(render_consistency_report(sample_consistency()));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);

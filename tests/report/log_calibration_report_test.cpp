@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-calibrate::LogCalibration sample() {
+calibrate::LogCalibration sample_log() {
   calibrate::LogCalibration c;
   c.input = "sim:<b>";
   c.log.name = "a drive";
@@ -31,7 +31,7 @@ calibrate::LogCalibration sample() {
 }
 
 TEST(LogCalibrationReport, JsonHasEveryFigure) {
-  const auto json = nlohmann::json::parse(to_json(sample()));
+  const auto json = nlohmann::json::parse(to_json(sample_log()));
   EXPECT_EQ(json["found"]["wheels.track_m"]["value"], 0.33);
   EXPECT_EQ(json["found"]["wheels.track_m"]["before"], 0.3);
   EXPECT_TRUE(json["found"]["wheels.track_m"]["told"]);
@@ -42,14 +42,14 @@ TEST(LogCalibrationReport, JsonHasEveryFigure) {
 }
 
 TEST(LogCalibrationReport, TextSaysWhatIsAssumed) {
-  const std::string text = to_text(sample());
+  const std::string text = to_text(sample_log());
   EXPECT_THAT(text, HasSubstr("as assumed"));
   EXPECT_THAT(text, HasSubstr("0.33000 +- 0.00200\n"));
   EXPECT_THAT(text, HasSubstr("note: not told"));
 }
 
 TEST(LogCalibrationReport, SaysWhereItCannotBeWritten) {
-  const auto written = write_results(sample(), "/nowhere", "");
+  const auto written = write_results(sample_log(), "/nowhere", "");
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("/nowhere/calibration.yaml"));
 }
@@ -57,7 +57,7 @@ TEST(LogCalibrationReport, SaysWhereItCannotBeWritten) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(LogCalibrationPage, ShowsWhatWasFoundAndWhatItIsWorth) {
-  const test::Page page = test::open_in_browser(render_report(sample(), "waymark calibrate odometry x"));
+  const test::Page page = test::open_in_browser(render_report(sample_log(), "waymark calibrate odometry x"));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 1U);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-calibrate::MovingStudy sample() {
+calibrate::MovingStudy sample_moving() {
   calibrate::MovingStudy study;
   study.input = "sim:<b>";
   study.runs = 3;
@@ -29,7 +29,7 @@ calibrate::MovingStudy sample() {
 }
 
 TEST(MovingStudyReport, JsonHasEveryFigure) {
-  const auto json = nlohmann::json::parse(to_json(sample()));
+  const auto json = nlohmann::json::parse(to_json(sample_moving()));
   EXPECT_EQ(json["found"]["sensor.range_sigma_ratio"]["value"], 0.01);
   EXPECT_EQ(json["found"]["sensor.bearing_sigma_deg"]["sigma"], 0.02);
   EXPECT_FALSE(json["found"]["sensor.delay_s"]["told"]);
@@ -39,14 +39,14 @@ TEST(MovingStudyReport, JsonHasEveryFigure) {
 }
 
 TEST(MovingStudyReport, TextHasFindingsTablesAndNotes) {
-  const std::string text = to_text(sample());
+  const std::string text = to_text(sample_moving());
   for (const char* part : {"3 runs over sim:<b>", "sensor.bearing_sigma_deg", "(as assumed)", "range, m",
                            "bearing, deg", "note: what was found still moved"})
     EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST(MovingStudyReport, SaysWhereItCannotBeWritten) {
-  const auto written = write_results(sample(), "/nowhere", "");
+  const auto written = write_results(sample_moving(), "/nowhere", "");
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("/nowhere/calibration.yaml"));
 }
@@ -54,7 +54,7 @@ TEST(MovingStudyReport, SaysWhereItCannotBeWritten) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(SensorPage, ShowsWhatWasFoundAndHowErrorsLie) {
-  const test::Page page = test::open_in_browser(render_report(sample(), "waymark calibrate sensor x"));
+  const test::Page page = test::open_in_browser(render_report(sample_moving(), "waymark calibrate sensor x"));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-calibrate::StaticStudy sample() {
+calibrate::StaticStudy sample_static() {
   std::vector<calibrate::PlaceStudy> places;
   for (const double range_m : {1.0, 2.0, 3.0, 4.0}) {
     calibrate::PlaceStudy place{.place = {"a", range_m, 0.1, {}}, .scans = 10, .sightings = 10};
@@ -23,7 +23,7 @@ calibrate::StaticStudy sample() {
 }
 
 TEST(StaticStudyReport, JsonHasEveryFigure) {
-  const auto json = nlohmann::json::parse(to_json(sample()));
+  const auto json = nlohmann::json::parse(to_json(sample_static()));
   EXPECT_EQ(json["places"].size(), 5U);
   EXPECT_NEAR(json["found"]["range_scale"]["value"].get<double>(), 1.02, 1e-6);
   EXPECT_NEAR(json["found"]["range_offset_m"]["value"].get<double>(), 0.01, 1e-6);
@@ -32,7 +32,7 @@ TEST(StaticStudyReport, JsonHasEveryFigure) {
 }
 
 TEST(StaticStudyReport, TextSaysWhatIsNotTold) {
-  const std::string text = to_text(sample());
+  const std::string text = to_text(sample_static());
   EXPECT_THAT(text, HasSubstr("range scale"));
   EXPECT_THAT(text, HasSubstr("note: the smallest usable range is not told"));
 }
@@ -41,7 +41,7 @@ TEST(StaticStudyReport, TextSaysWhatIsNotTold) {
 
 TEST(StaticStudyPage, ShowsErrorsByRangeAndBearing) {
   const test::Page page =
-      test::open_in_browser(render_report(sample(), "waymark calibrate sensor --places p"));
+      test::open_in_browser(render_report(sample_static(), "waymark calibrate sensor --places p"));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);
   for (const char* text : {"range scale", "calibrate sensor --places p", "smallest usable range"})

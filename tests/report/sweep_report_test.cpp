@@ -21,7 +21,7 @@ study::SweepGroup group(std::vector<std::string> values, double scale) {
 }
 
 /// Two observation modes of FastSLAM over N, and the EKF.
-SweepReport sample() {
+SweepReport sample_sweep() {
   SweepReport report{"sim:study", "waymark sweep", 35, {{"filter", "observe", "fastslam.particles"}, {}}};
   for (const char* observe : {"range-bearing", "bearing"})
     for (const char* particles : {"10", "150", "1000"})
@@ -31,14 +31,14 @@ SweepReport sample() {
 }
 
 TEST(SweepReport, IsOneFileWithoutAddresses) {
-  const std::string html = render_sweep_report(sample());
+  const std::string html = render_sweep_report(sample_sweep());
   EXPECT_NE(html.find("Leon Sorokin"), std::string::npos);  // uPlot and its licence
   for (const char* load : {"http://", "https://", "src=\"", "@import", "url(", "fetch(", "XMLHttpRequest"})
     EXPECT_EQ(html.find(load), std::string::npos) << load;
 }
 
 TEST(SweepReport, JsonHasQuartilesAndLeavesOutWhatIsNotKnown) {
-  SweepReport report = sample();
+  SweepReport report = sample_sweep();
   const std::size_t nees = study::figure_index("nees_mean");
   report.summary.groups[0].median[nees] = std::nan("");
   const auto json = nlohmann::json::parse(sweep_json_text(report.summary));
@@ -60,7 +60,7 @@ TEST(SweepReport, SaysWhereItCannotBeWritten) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(SweepPage, DrawsTheThreeFiguresAndTheComparison) {
-  const test::Page page = test::open_in_browser(render_sweep_report(sample()));
+  const test::Page page = test::open_in_browser(render_sweep_report(sample_sweep()));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 5U);  // path, landmarks; time; mixture, mean covariance

@@ -20,7 +20,7 @@ study::TunedKey key(std::string name, double after) {
   return made;
 }
 
-study::TuneResult sample() {
+study::TuneResult sample_tune() {
   study::TuneResult result{.keys = {key("sensor.range_sigma_m", 0.1), key("sensor.bearing_sigma_deg", 1.0)},
                            .idle_keys = {"motion.turn_var_rad2_per_m"},
                            .sightings = 1000,
@@ -39,7 +39,7 @@ study::TuneResult sample() {
 }
 
 TEST(TuneReport, JsonHasWhatMovedAndLeavesOutWhatIsNotKnown) {
-  const auto json = nlohmann::json::parse(tune_json_text(sample()));
+  const auto json = nlohmann::json::parse(tune_json_text(sample_tune()));
   EXPECT_EQ(json["by"], "likelihood");
   EXPECT_EQ(json["keys"][0]["after"], 0.1);
   EXPECT_EQ(json["keys"][0]["high"], 0.11);
@@ -50,13 +50,13 @@ TEST(TuneReport, JsonHasWhatMovedAndLeavesOutWhatIsNotKnown) {
 }
 
 TEST(TuneReport, IsOneFileWithoutAddresses) {
-  const std::string html = render_tune_report(sample(), "waymark tune LOG");
+  const std::string html = render_tune_report(sample_tune(), "waymark tune LOG");
   for (const char* load : {"http://", "https://", "src=\"", "@import", "url(", "fetch(", "XMLHttpRequest"})
     EXPECT_EQ(html.find(load), std::string::npos) << load;
 }
 
 TEST(TuneReport, SaysWhereItCannotBeWritten) {
-  const auto written = write_tune_report(sample(), "", "/nowhere/report.html");
+  const auto written = write_tune_report(sample_tune(), "", "/nowhere/report.html");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("/nowhere/report.html"), std::string::npos);
 }
@@ -64,7 +64,7 @@ TEST(TuneReport, SaysWhereItCannotBeWritten) {
 #ifdef WAYMARK_CHROMIUM
 
 TEST(TunePage, DrawsAProfilePerKeyAndTheTables) {
-  const test::Page page = test::open_in_browser(render_tune_report(sample(), "waymark tune LOG"));
+  const test::Page page = test::open_in_browser(render_tune_report(sample_tune(), "waymark tune LOG"));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);
@@ -76,7 +76,7 @@ TEST(TunePage, DrawsAProfilePerKeyAndTheTables) {
 }
 
 TEST(TunePage, OfATuningThatWasStoppedHasTheKeysOnly) {
-  study::TuneResult stopped = sample();
+  study::TuneResult stopped = sample_tune();
   stopped.stopped = true;
   stopped.held_out.clear();
   stopped.logs.clear();

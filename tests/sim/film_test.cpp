@@ -11,7 +11,7 @@ namespace waymark::sim {
 namespace {
 
 /// Errors of all kinds switched off.
-FilmOptions ideal() {
+FilmOptions ideal_film() {
   FilmOptions film;
   film.noise_grey = film.exposure_ms = 0.0;
   film.drift_ratio = film.jump_ratio = 0.0;
@@ -54,9 +54,9 @@ std::pair<double, double> difference_of(const GreyImage& a, const GreyImage& b) 
 }
 
 TEST(Film, NoiseHasItsStandardDeviationAndIsAnotherInEveryImage) {
-  FilmOptions noisy = ideal();
+  FilmOptions noisy = ideal_film();
   noisy.noise_grey = 3.0;
-  Take clean(ideal()), grainy(noisy);
+  Take clean(ideal_film()), grainy(noisy);
   const GreyImage first = grainy.film.take(40);
   const auto [mean, sigma] = difference_of(first, clean.film.take(40));
   EXPECT_NEAR(mean, 0.0, 0.05);
@@ -74,8 +74,8 @@ TEST(Film, AnImageDependsOnItsNumberAlone) {
 }
 
 TEST(Film, CameraStandsWhereItsModelSaysWithoutVibration) {
-  const Take take(ideal());
-  const Camera camera(camera_of(ideal()));
+  const Take take(ideal_film());
+  const Camera camera(camera_of(ideal_film()));
   const Stamp when = take.film.stamp(77);
   const CameraPose pose = camera.pose(take.driven.at(when));
   const Viewpoint from = take.film.viewpoint(when);
@@ -97,10 +97,10 @@ TEST(Film, VibrationHasMeanZeroAndDeviationOne) {
 }
 
 TEST(Film, VibrationTurnsAndLiftsTheCamera) {
-  FilmOptions shaking = ideal();
+  FilmOptions shaking = ideal_film();
   shaking.vibration_height_m = 0.01;
   shaking.vibration_pitch_deg = 1.0;
-  const Take calm(ideal()), shaken(shaking);
+  const Take calm(ideal_film()), shaken(shaking);
   double lifts = 0.0, nods = 0.0;
   for (std::size_t i = 0; i < 300; ++i) {
     const Viewpoint a = calm.film.viewpoint(calm.film.stamp(i));
@@ -114,7 +114,7 @@ TEST(Film, VibrationTurnsAndLiftsTheCamera) {
 }
 
 TEST(Film, BrightnessDriftsSlowlyAndJumpsSuddenly) {
-  FilmOptions changing = ideal();
+  FilmOptions changing = ideal_film();
   changing.drift_ratio = 0.1;
   changing.jump_ratio = 0.5;
   changing.jump_interval_s = 4.0;
@@ -130,9 +130,9 @@ TEST(Film, BrightnessDriftsSlowlyAndJumpsSuddenly) {
 }
 
 TEST(Film, ImageGetsBrighterByTheBrightness) {
-  FilmOptions bright = ideal();
+  FilmOptions bright = ideal_film();
   bright.brightness = 1.3;
-  Take plain(ideal()), brighter(bright);
+  Take plain(ideal_film()), brighter(bright);
   const GreyImage a = plain.film.take(10), b = brighter.film.take(10);
   int compared = 0;
   for (int u = 0; u < 320; ++u) {
@@ -159,7 +159,7 @@ TEST(Film, ACoveredLensShowsNothingButNoise) {
 }
 
 TEST(Film, StampsAndNumbersOfImagesAreInverse) {
-  const Take take(ideal());
+  const Take take(ideal_film());
   for (std::size_t i = 0; i < take.film.size(); ++i) ASSERT_EQ(take.film.number(take.film.stamp(i)), i);
 }
 
@@ -173,18 +173,18 @@ double sharpness_across(const GreyImage& image) {
 TEST(Film, TurningSmearsWhatALongExposureSees) {
   SimOptions options = small_room();
   options.path.corner_radius_m = 0.0;
-  FilmOptions slow = ideal();
+  FilmOptions slow = ideal_film();
   slow.exposure_ms = 20.0;
-  Take sharp(ideal(), options), smeared(slow, options);
+  Take sharp(ideal_film(), options), smeared(slow, options);
   const std::size_t turning = sharp.driven.corners.front() + 30;  // a second after it began to turn
   EXPECT_LT(sharpness_across(smeared.film.take(turning)), 0.7 * sharpness_across(sharp.film.take(turning)));
 }
 
 TEST(Film, SomebodyWalkingChangesAPartOfTheImage) {
   SimOptions options = small_room();
-  Take empty(ideal(), options);
+  Take empty(ideal_film(), options);
   options.room.walkers = 8;
-  Take busy(ideal(), options);
+  Take busy(ideal_film(), options);
   int seen = 0;
   for (std::size_t i = 0; i < empty.film.size(); i += 25)
     if (empty.film.take(i) != busy.film.take(i)) ++seen;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kScans = 10000;
 
-SensorOptions ideal() {
+SensorOptions ideal_sensor() {
   SensorOptions options;
   options.range_sigma_m = options.range_sigma_ratio = options.bearing_sigma_deg = 0.0;
   return options;
@@ -43,7 +43,7 @@ const RangeBearing& value_of(const Observation& observation) {
 }
 
 TEST(SimLandmarkSensor, MeasuresFromItsMount) {
-  SensorOptions options = ideal();
+  SensorOptions options = ideal_sensor();
   options.x_m = 1.0;
   options.y_m = 0.5;
   options.yaw_deg = 90.0;
@@ -57,28 +57,28 @@ TEST(SimLandmarkSensor, MeasuresFromItsMount) {
 }
 
 TEST(SimLandmarkSensor, SeesNothingBeyondItsLimits) {
-  const double edge_rad = to_radians(ideal().field_of_view_deg) / 2.0;
+  const double edge_rad = to_radians(ideal_sensor().field_of_view_deg) / 2.0;
   const auto at = [](double range_m, double bearing_rad) {
     return std::vector{landmark(0, range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad))};
   };
-  EXPECT_EQ(scan_once(ideal(), {}, at(5.35, 0.0)).size(), 1u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(5.37, 0.0)).size(), 0u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(0.34, 0.0)).size(), 1u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(0.33, 0.0)).size(), 0u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(2.0, edge_rad - 1e-6)).size(), 1u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(2.0, edge_rad + 1e-6)).size(), 0u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(2.0, -edge_rad - 1e-6)).size(), 0u);
-  EXPECT_EQ(scan_once(ideal(), {}, at(2.0, kPi)).size(), 0u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(5.35, 0.0)).size(), 1u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(5.37, 0.0)).size(), 0u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(0.34, 0.0)).size(), 1u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(0.33, 0.0)).size(), 0u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(2.0, edge_rad - 1e-6)).size(), 1u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(2.0, edge_rad + 1e-6)).size(), 0u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(2.0, -edge_rad - 1e-6)).size(), 0u);
+  EXPECT_EQ(scan_once(ideal_sensor(), {}, at(2.0, kPi)).size(), 0u);
 }
 
 TEST(SimLandmarkSensor, SeesAllRoundWithAFullFieldOfView) {
-  SensorOptions options = ideal();
+  SensorOptions options = ideal_sensor();
   options.field_of_view_deg = 360.0;
   EXPECT_EQ(scan_once(options, {}, {landmark(0, -1.0, 0.0), landmark(1, 0.0, -1.0)}).size(), 2u);
 }
 
 TEST(SimLandmarkSensor, MeasuresWhatItIsToldTo) {
-  SensorOptions options = ideal();
+  SensorOptions options = ideal_sensor();
   options.observe = Observe::kRange;
   EXPECT_NEAR(std::get<Range>(scan_once(options, {}, {landmark(0, 2.0, 0.5)})[0].value).range_m,
               std::hypot(2.0, 0.5), 1e-12);

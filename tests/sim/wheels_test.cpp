@@ -21,7 +21,7 @@ WheelOptions noisy() {
   return wheels;
 }
 
-WheelOptions ideal() {
+WheelOptions ideal_wheels() {
   WheelOptions wheels;
   wheels.var_m2_per_m = 0.0;
   wheels.slip_forward_var_m2_per_m = wheels.slip_lateral_var_m2_per_m = 0.0;
@@ -32,7 +32,8 @@ WheelOptions ideal() {
 TEST(Wheels, IdealEncodersAreUndoneByTheMotionModel) {
   RandomStream random(1, StreamPurpose::kSimulation);
   const ArcStep command{0.3, -0.2};
-  const ArcStep counted = wheel_step(encoder_increment(ideal(), command, random), geometry(ideal()));
+  const ArcStep counted =
+      wheel_step(encoder_increment(ideal_wheels(), command, random), geometry(ideal_wheels()));
   EXPECT_NEAR(counted.distance_m, command.distance_m, 1e-15);
   EXPECT_NEAR(counted.turn_rad, command.turn_rad, 1e-15);
 }
@@ -51,7 +52,7 @@ TEST(Wheels, ErrorsHaveTheCovarianceOfTheMotionModel) {
   const ArcStep command{0.2, 0.5};
   const WheelAngles true_angles = [&] {
     RandomStream random(1, StreamPurpose::kSimulation);
-    return encoder_increment(ideal(), command, random);
+    return encoder_increment(ideal_wheels(), command, random);
   }();
   const Motion expected =
       wheel_motion(true_angles, {.wheels = geometry(wheels), .noise = assumed_noise(wheels)});

@@ -7,17 +7,14 @@
 #include "support/poses.hpp"
 #include "waymark/models/odometry.hpp"
 
+#include "smooth/random_calibration.hpp"
+
 namespace waymark::smooth {
 namespace {
 
 using test::matrix_near;
 using test::numeric_jacobian;
-
-Calibration random_calibration(RandomStream& random) {
-  Calibration c;
-  for (auto& entry : c) entry = random.uniform(-0.1, 0.1);
-  return c;
-}
+using test::random_calibration;
 
 TEST(Calibrate, MakesAnArcLongerAndTurnsItMore) {
   Calibration c = Calibration::Zero();

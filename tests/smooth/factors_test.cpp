@@ -7,20 +7,17 @@
 #include "support/numeric_jacobian.hpp"
 #include "support/poses.hpp"
 
+#include "smooth/random_calibration.hpp"
+
 namespace waymark::smooth {
 namespace {
 
 using test::matrix_near;
 using test::numeric_jacobian;
+using test::random_calibration;
 using test::random_pose;
 using test::to_pose;
 using test::to_vector;
-
-Calibration random_calibration(RandomStream& random) {
-  Calibration c;
-  for (auto& entry : c) entry = random.uniform(-0.1, 0.1);
-  return c;
-}
 
 void expect_jacobians_of_leg(bool by_errors, RandomStream& random) {
   const Pose2 before = random_pose(random), after = random_pose(random);

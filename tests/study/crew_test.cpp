@@ -12,14 +12,14 @@ namespace {
 
 using waymark::test::TempFolder;
 
-SweepPlan plan() {
+SweepPlan crew_plan() {
   return test::quick_plan(
       {{"seed", {"1", "2", "3"}}, {"filter", {"ekf", "fastslam"}}, {"fastslam.particles", {"20"}}});
 }
 
 std::vector<SweepRow> rows_of(int threads) {
   const TempFolder folder;
-  const auto sweep = Sweep::open(plan(), folder.path()).value();
+  const auto sweep = Sweep::open(crew_plan(), folder.path()).value();
   { const Crew crew(*sweep, threads); }
   return sweep->rows();
 }
@@ -40,7 +40,7 @@ TEST(Crew, MakesAllRunsAndTheResultDoesNotDependOnThreads) {
 
 TEST(Crew, StoppedSweepEndsWithoutHalfARun) {
   const TempFolder folder;
-  const auto sweep = Sweep::open(plan(), folder.path()).value();
+  const auto sweep = Sweep::open(crew_plan(), folder.path()).value();
   sweep->stop();
   Crew crew(*sweep, 2);
   while (crew.busy()) std::this_thread::yield();

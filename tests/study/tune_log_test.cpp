@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using waymark::test::TempFolder;
 
-const UserSettings kUser = test::quick_plan({}).user;
+const UserSettings kQuickUser = test::quick_plan({}).user;
 
 TuneSums total(const std::vector<TuneSums>& blocks) {
   TuneSums sums;
@@ -32,10 +32,10 @@ TEST(TuneInput, MayHaveSettingsOfItsOwn) {
 }
 
 TEST(TuneLog, EverySightingOfARunIsATermOfItsScore) {
-  const auto log = TuneLog::open("sim:square", kUser);
+  const auto log = TuneLog::open("sim:square", kQuickUser);
   ASSERT_TRUE(log.ok()) << log.error().message;
   EXPECT_EQ(log->odometry(), OdometryKind::kWheelAngles);
-  UserSettings user = kUser;
+  UserSettings user = kQuickUser;
   user.assignments.emplace_back("sensor.range_sigma_m=0.2");
   user.assignments.emplace_back("smooth.run=true");  // keeps the sightings
   const auto run = run_and_score("sim:square", user);
@@ -54,7 +54,7 @@ TEST(TuneLog, EverySightingOfARunIsATermOfItsScore) {
 }
 
 TEST(TuneLog, ItsErrorIsThatOfTheAlignedPath) {
-  const auto log = TuneLog::open("sim:square", kUser).value();
+  const auto log = TuneLog::open("sim:square", kQuickUser).value();
   const TuneSums sums = total(log.sums({}, {}).value());
   const auto run = log.run({}, {});
   ASSERT_TRUE(run.ok());
@@ -64,12 +64,12 @@ TEST(TuneLog, ItsErrorIsThatOfTheAlignedPath) {
 }
 
 TEST(TuneLog, GivesNothingWhenStopped) {
-  const auto log = TuneLog::open("sim:square", kUser).value();
+  const auto log = TuneLog::open("sim:square", kQuickUser).value();
   EXPECT_FALSE(log.sums({}, [] { return false; }).has_value());
 }
 
 TEST(TuneLog, SettingsThatDropSightingsGainNothing) {
-  const auto log = TuneLog::open("sim:square", kUser).value();
+  const auto log = TuneLog::open("sim:square", kQuickUser).value();
   const TuneSums as_it_is = total(log.sums({}, {}).value());
   const TuneSums blind = total(log.sums({"sensor.max_range_m=1"}, {}).value());
   EXPECT_EQ(blind.sightings, as_it_is.sightings);

@@ -15,24 +15,24 @@ TuneRequest request(std::vector<std::string> logs, std::vector<std::string> keys
   return {.logs = std::move(logs), .user = test::quick_plan({}).user, .keys = std::move(keys)};
 }
 
-std::string refusal(const TuneRequest& request) {
+std::string problem_of(const TuneRequest& request) {
   const auto problem = TuneProblem::open(request);
   return problem ? "accepted" : problem.error().message;
 }
 
 TEST(TuneProblem, RefusesLogsOfDifferentSensors) {
-  EXPECT_THAT(refusal(request({"sim:square", "sim:square@sim.odometry=velocity"})),
+  EXPECT_THAT(problem_of(request({"sim:square", "sim:square@sim.odometry=velocity"})),
               HasSubstr("sim:square has wheel angles and sim:square@sim.odometry=velocity has velocities"));
-  EXPECT_THAT(refusal(request({"sim:square", "sim:square@observe=range,filter=fastslam"})),
+  EXPECT_THAT(problem_of(request({"sim:square", "sim:square@observe=range,filter=fastslam"})),
               HasSubstr("observes range-bearing"));
-  EXPECT_THAT(refusal(request({"sim:square", "sim:square@sensor.range_sigma_m=3"})),
+  EXPECT_THAT(problem_of(request({"sim:square", "sim:square@sensor.range_sigma_m=3"})),
               HasSubstr("--set sensor.range_sigma_m="));
 }
 
 TEST(TuneProblem, RefusesKeysThatMakeNoDifferenceOnlyWhereTheyWereChosen) {
-  EXPECT_THAT(refusal(request({"sim:square"}, {"fastslam.evidence_way_m"})),
+  EXPECT_THAT(problem_of(request({"sim:square"}, {"fastslam.evidence_way_m"})),
               HasSubstr("makes no difference"));
-  EXPECT_THAT(refusal(request({"sim:square"}, {"motion.steer_var_rad2_m"})),
+  EXPECT_THAT(problem_of(request({"sim:square"}, {"motion.steer_var_rad2_m"})),
               HasSubstr("makes no difference"));
   const auto defaults = TuneProblem::open(request({"sim:square"}, {}));
   ASSERT_TRUE(defaults.ok()) << defaults.error().message;
@@ -44,7 +44,7 @@ TEST(TuneProblem, RefusesFewerSightingsThanKeys) {
   folder.write("log.yaml", "waymark_log: 1\nname: short\n");
   folder.write("velocity.csv", "stamp_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
   folder.write("observations.csv", "stamp_s,id,range_m,bearing_rad\n0,1,3,0.1\n0.5,1,2.5,0.1\n");
-  EXPECT_THAT(refusal({.logs = {folder.path().string()}}),
+  EXPECT_THAT(problem_of({.logs = {folder.path().string()}}),
               HasSubstr("2 sightings are too few to tune 5 keys"));
 }
 

@@ -10,7 +10,7 @@
 namespace waymark::vision {
 namespace {
 
-const Eigen::Matrix2d kS = 9.0 * Eigen::Matrix2d::Identity();
+const Eigen::Matrix2d kInnovation = 9.0 * Eigen::Matrix2d::Identity();
 
 /// A wall of squares before the camera, and the landmark at (u, v) of its picture.
 class Finder : public ::testing::Test {
@@ -24,7 +24,7 @@ class Finder : public ::testing::Test {
     const Eigen::Vector2d pixel(u, v), xy = camera_.ray(pixel)->xy;
     const Eigen::Vector3d p_camera = 3.0 * Eigen::Vector3d(xy.x(), xy.y(), 1.0);
     return {.predicted_px = pixel + error,
-            .S = kS,
+            .S = kInnovation,
             .p_world_m = here_.p_world_camera + here_.R_camera_world.transpose() * p_camera};
   }
 

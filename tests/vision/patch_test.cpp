@@ -14,7 +14,7 @@ namespace {
 
 using test::matrix_near;
 
-const Eigen::Matrix2d kSame = Eigen::Matrix2d::Identity();
+const Eigen::Matrix2d kUnwarped = Eigen::Matrix2d::Identity();
 
 GreyImage counted(int width_px, int height_px) {
   GreyImage image(width_px, height_px);
@@ -46,7 +46,7 @@ TEST(Patch, IsNothingWhereItLeavesTheImage) {
 TEST(Warp, OfNothingIsThePatchItself) {
   const GreyImage image = counted(60, 50);
   for (const int size : {8, 9, 16})
-    EXPECT_EQ(warp_patch(*cut_reference(image, 30, 25), kSame, size)->pixels,
+    EXPECT_EQ(warp_patch(*cut_reference(image, 30, 25), kUnwarped, size)->pixels,
               cut_patch(image, 30, 25, size)->pixels);
 }
 
@@ -57,7 +57,7 @@ TEST(Warp, ShowsWhatAnotherViewSees) {
     const Eigen::Matrix2d A{{random.uniform(0.8, 1.3), random.uniform(-0.3, 0.3)},
                             {random.uniform(-0.3, 0.3), random.uniform(0.8, 1.3)}};
     const Eigen::Vector2d centre(20.0, 20.0);
-    const GreyImage then = texture.seen(41, 41, kSame, {0.0, 0.0}, 0.0, random);
+    const GreyImage then = texture.seen(41, 41, kUnwarped, {0.0, 0.0}, 0.0, random);
     // Pixel p of the new view shows the place whose image was at centre + A^-1 (p - centre).
     const Eigen::Matrix2d then_now = A.inverse();
     const GreyImage now = texture.seen(41, 41, then_now, centre - then_now * centre, 0.0, random);
@@ -75,8 +75,8 @@ TEST(Warp, ShowsWhatAnotherViewSees) {
 
 TEST(Warp, IsNothingWhereTheReferenceIsTooSmall) {
   const auto reference = cut_reference(counted(60, 50), 30, 25);
-  EXPECT_TRUE(warp_patch(*reference, 0.6 * kSame, 16));
-  EXPECT_FALSE(warp_patch(*reference, 0.4 * kSame, 16));
+  EXPECT_TRUE(warp_patch(*reference, 0.6 * kUnwarped, 16));
+  EXPECT_FALSE(warp_patch(*reference, 0.4 * kUnwarped, 16));
   EXPECT_FALSE(warp_patch(*reference, Eigen::Matrix2d::Zero(), 16));
 }
 
@@ -138,7 +138,7 @@ TEST(PlaneWarp, GrowsWhenTheCameraComesNearer) {
   const CameraMotion forward{Eigen::Matrix3d::Identity(), {0.0, 0.0, -1.0}};
   const auto A = facing_warp(camera, {0.0, 0.0, 3.0}, forward);
   ASSERT_TRUE(A);
-  EXPECT_TRUE(matrix_near(*A, 1.5 * kSame, 1e-12));
+  EXPECT_TRUE(matrix_near(*A, 1.5 * kUnwarped, 1e-12));
   EXPECT_FALSE(facing_warp(camera, {0.0, 0.0, 0.5}, forward));  // now behind the camera
 }
 
@@ -155,14 +155,14 @@ TEST(PlaneWarp, MotionIsThatBetweenTwoPoses) {
 TEST(WarpedPatch, IsDrawnAnewOnlyWhenTheViewHasChanged) {
   RandomStream random(4, StreamPurpose::kWorld);
   const test::SmoothTexture texture(random);
-  const GreyImage image = texture.seen(60, 60, kSame, {0.0, 0.0}, 0.0, random);
+  const GreyImage image = texture.seen(60, 60, kUnwarped, {0.0, 0.0}, 0.0, random);
   WarpedPatch patch(*cut_reference(image, 30, 30), 16);
   const auto before = patch.patch().pixels;
-  EXPECT_EQ(patch.seen_under(1.04 * kSame).pixels, before);
-  EXPECT_NE(patch.seen_under(1.3 * kSame).pixels, before);
+  EXPECT_EQ(patch.seen_under(1.04 * kUnwarped).pixels, before);
+  EXPECT_NE(patch.seen_under(1.3 * kUnwarped).pixels, before);
   const auto enlarged = patch.patch().pixels;
-  EXPECT_EQ(patch.seen_under(0.3 * kSame).pixels, enlarged);  // more than the reference holds
-  EXPECT_EQ(patch.seen_under(kSame).pixels, before);
+  EXPECT_EQ(patch.seen_under(0.3 * kUnwarped).pixels, enlarged);  // more than the reference holds
+  EXPECT_EQ(patch.seen_under(kUnwarped).pixels, before);
 }
 
 }  // namespace

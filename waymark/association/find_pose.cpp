@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "waymark/core/as_index.hpp"
 #include "waymark/core/gaussian.hpp"
 
 namespace waymark {
@@ -14,8 +15,6 @@ constexpr double kGate2 = 13.82;  // and with two
 constexpr double kShortest_m = 0.2;
 constexpr double kElsewhere_m = 1.0;
 constexpr double kElsewhere_rad = 0.3;
-
-constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
 Eigen::Vector2d landmark(const MapState& map, int i) { return map.landmarks.segment<2>(2 * i); }
 Eigen::Matrix2d common(const MapState& map, int i, int j) {
@@ -74,7 +73,7 @@ class Search {
   [[nodiscard]] std::vector<int> candidates(const std::optional<LandmarkId>& id) const {
     std::vector<int> result;
     for (int i = 0; i < std::ssize(map_.ids); ++i)
-      if (!id || map_.ids[index(i)] == *id) result.push_back(i);
+      if (!id || map_.ids[as_index(i)] == *id) result.push_back(i);
     return result;
   }
 
@@ -84,22 +83,22 @@ class Search {
   }
 
   void propose_by(int i, int j) {
-    for (const int a : candidates_[index(i)])
-      for (const int b : candidates_[index(j)])
+    for (const int a : candidates_[as_index(i)])
+      for (const int b : candidates_[as_index(j)])
         if (a != b && is_long_enough(i, j, a, b) &&
-            is_as_far_apart(seen_[index(i)], seen_[index(j)], map_, a, b))
+            is_as_far_apart(seen_[as_index(i)], seen_[as_index(j)], map_, a, b))
           judge(hypothesis({i, j}, {a, b}));
   }
 
   /// To tell a heading.
   [[nodiscard]] bool is_long_enough(int i, int j, int a, int b) const {
-    return (seen_[index(j)].p_robot - seen_[index(i)].p_robot).norm() >= kShortest_m &&
+    return (seen_[as_index(j)].p_robot - seen_[as_index(i)].p_robot).norm() >= kShortest_m &&
            (landmark(map_, b) - landmark(map_, a)).norm() >= kShortest_m;
   }
 
   [[nodiscard]] Hypothesis hypothesis(std::pair<int, int> seen, std::pair<int, int> landmarks) const {
-    const Eigen::Vector2d p0 = seen_[index(seen.first)].p_robot;
-    const Eigen::Vector2d p1 = seen_[index(seen.second)].p_robot;
+    const Eigen::Vector2d p0 = seen_[as_index(seen.first)].p_robot;
+    const Eigen::Vector2d p1 = seen_[as_index(seen.second)].p_robot;
     const Eigen::Vector2d m0 = landmark(map_, landmarks.first);
     const Eigen::Vector2d m1 = landmark(map_, landmarks.second);
     const double theta_rad = wrap_angle(angle_of(m1 - m0) - angle_of(p1 - p0));
@@ -115,11 +114,11 @@ class Search {
   void judge(const Hypothesis& hypothesis) {
     PoseCandidate candidate{hypothesis.T_world_robot, std::vector<int>(seen_.size(), -1), 2};
     double misfit = 0.0;
-    for (int k = 0; k < 2; ++k) candidate.landmarks[index(hypothesis.seen[k])] = hypothesis.landmarks[k];
+    for (int k = 0; k < 2; ++k) candidate.landmarks[as_index(hypothesis.seen[k])] = hypothesis.landmarks[k];
     for (int k = 0; k < std::ssize(seen_); ++k) {
-      if (candidate.landmarks[index(k)] >= 0) continue;
+      if (candidate.landmarks[as_index(k)] >= 0) continue;
       const Match match = nearest(hypothesis, k, candidate.landmarks);
-      candidate.landmarks[index(k)] = match.landmark;
+      candidate.landmarks[as_index(k)] = match.landmark;
       candidate.agreeing += match.landmark >= 0 ? 1 : 0;
       misfit += match.d2;
     }
@@ -132,12 +131,12 @@ class Search {
   /// Of the landmarks that are still free.
   [[nodiscard]] Match nearest(const Hypothesis& hypothesis, int k, const std::vector<int>& taken) const {
     Match best;
-    const Eigen::Vector2d p_world = hypothesis.T_world_robot * seen_[index(k)].p_robot;
+    const Eigen::Vector2d p_world = hypothesis.T_world_robot * seen_[as_index(k)].p_robot;
     const Eigen::Vector2d lever = perpendicular(p_world - hypothesis.centre);
     const Eigen::Matrix2d A = 0.5 * Eigen::Matrix2d::Identity() - lever * hypothesis.across.transpose();
     const Eigen::Matrix2d B = Eigen::Matrix2d::Identity() - A;
     const Eigen::Matrix2d seen_covariance = covariance_of_seen(hypothesis, k, A, B);
-    for (const int c : candidates_[index(k)]) {
+    for (const int c : candidates_[as_index(k)]) {
       if (std::ranges::find(taken, c) != taken.end()) continue;
       const Eigen::Matrix2d S = seen_covariance + covariance_of_map(hypothesis, c, A, B);
       const auto d2 = mahalanobis_squared<2>(landmark(map_, c) - p_world, S);
@@ -151,7 +150,7 @@ class Search {
                                                    const Eigen::Matrix2d& A, const Eigen::Matrix2d& B) const {
     const Eigen::Matrix2d R = hypothesis.T_world_robot.rotation();
     const auto turned = [&](int i) -> Eigen::Matrix2d {
-      return R * seen_[index(i)].covariance * R.transpose();
+      return R * seen_[as_index(i)].covariance * R.transpose();
     };
     return turned(k) + A * turned(hypothesis.seen[0]) * A.transpose() +
            B * turned(hypothesis.seen[1]) * B.transpose();

@@ -7,13 +7,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "waymark/core/as_index.hpp"
 #include "waymark/core/chi2.hpp"
 #include "waymark/core/gaussian.hpp"
 
 namespace waymark {
 namespace {
-
-constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
 /// A L^-T. Eigen's own solver is made for larger ones.
 Eigen::Matrix2d divided_by_transposed(const Eigen::Matrix2d& A, const Eigen::Matrix2d& L) {
@@ -26,16 +25,16 @@ Eigen::Matrix2d divided_by_transposed(const Eigen::Matrix2d& A, const Eigen::Mat
 }  // namespace
 
 JointMatch::JointMatch(double gate_probability, int most_sightings, int most_nodes)
-    : gates_(index(most_sightings) + 1),
+    : gates_(as_index(most_sightings) + 1),
       most_nodes_(most_nodes),
-      steps_(index(most_sightings)),
-      L_(index(most_sightings * most_sightings)) {
-  for (int k = 1; k <= most_sightings; ++k) gates_[index(k)] = chi2_quantile(gate_probability, 2 * k);
-  chosen_.reserve(index(most_sightings));
+      steps_(as_index(most_sightings)),
+      L_(as_index(most_sightings * most_sightings)) {
+  for (int k = 1; k <= most_sightings; ++k) gates_[as_index(k)] = chi2_quantile(gate_probability, 2 * k);
+  chosen_.reserve(as_index(most_sightings));
 }
 
 void JointMatch::begin(int sightings) {
-  best_.assign(index(sightings), kNothing);
+  best_.assign(as_index(sightings), kNothing);
   common_.resize(pairs_.size() * pairs_.size());
 }
 
@@ -55,12 +54,13 @@ void JointMatch::rank_pairs() {
     order_.push_back(p);
     alone_.push_back(score_alone(p));
   }
-  std::ranges::sort(order_, {},
-                    [this](int p) { return std::tuple(pairs_[index(p)].sighting, -alone_[index(p)], p); });
+  std::ranges::sort(order_, {}, [this](int p) {
+    return std::tuple(pairs_[as_index(p)].sighting, -alone_[as_index(p)], p);
+  });
   levels_.clear();
   for (std::size_t first = 0, next = 0; first < order_.size(); first = next) {
     while (next < order_.size() &&
-           pairs_[index(order_[next])].sighting == pairs_[index(order_[first])].sighting)
+           pairs_[as_index(order_[next])].sighting == pairs_[as_index(order_[first])].sighting)
       ++next;
     make_level(first, next - first);
   }
@@ -70,15 +70,15 @@ void JointMatch::rank_pairs() {
 }
 
 void JointMatch::make_level(std::size_t first, std::size_t count) {
-  const double second = count > 1 ? std::max(0.0, alone_[index(order_[first + 1])]) : 0.0;
-  Level level{first, count, alone_[index(order_[first])] - second, 0.0};
+  const double second = count > 1 ? std::max(0.0, alone_[as_index(order_[first + 1])]) : 0.0;
+  Level level{first, count, alone_[as_index(order_[first])] - second, 0.0};
   for (std::size_t i = first; i < first + count; ++i) level.bound = std::max(level.bound, most_of(order_[i]));
   levels_.push_back(level);
 }
 
 double JointMatch::score_alone(int pair) {
-  const JointPair& p = pairs_[index(pair)];
-  const Eigen::LLT<Eigen::Matrix2d> llt(common(index(pair), index(pair)) + p.R);
+  const JointPair& p = pairs_[as_index(pair)];
+  const Eigen::LLT<Eigen::Matrix2d> llt(common(as_index(pair), as_index(pair)) + p.R);
   const double log_det = 2.0 * (std::log(llt.matrixLLT()(0, 0)) + std::log(llt.matrixLLT()(1, 1)));
   const double score = p.bonus - 0.5 * (p.nu.dot(llt.solve(p.nu)) + log_det) - kLogTwoPi;
   return std::isfinite(score) ? score : -HUGE_VAL;
@@ -86,7 +86,7 @@ double JointMatch::score_alone(int pair) {
 
 /// What a pair brings where its innovation is zero and its noise all that is unknown: S >= R.
 double JointMatch::most_of(int pair) const {
-  const JointPair& p = pairs_[index(pair)];
+  const JointPair& p = pairs_[as_index(pair)];
   const double most = p.bonus - 0.5 * std::log(p.R.determinant()) - kLogTwoPi;
   return std::isfinite(most) ? most : HUGE_VAL;
 }
@@ -98,7 +98,7 @@ void JointMatch::descend(std::size_t level, double score) {  // NOLINT(misc-no-r
   const Level& here = levels_[level];
   for (std::size_t i = here.first; i < here.first + here.count; ++i) {
     const int pair = order_[i];
-    if (is_taken(pairs_[index(pair)].landmark)) continue;
+    if (is_taken(pairs_[as_index(pair)].landmark)) continue;
     if (++nodes_ > most_nodes_) return;
     if (!choose(pair)) continue;
     descend(level + 1, steps_[chosen_.size() - 1].score);
@@ -108,27 +108,27 @@ void JointMatch::descend(std::size_t level, double score) {  // NOLINT(misc-no-r
 }
 
 bool JointMatch::is_taken(int landmark) const {
-  return std::ranges::any_of(chosen_, [&](int pair) { return pairs_[index(pair)].landmark == landmark; });
+  return std::ranges::any_of(chosen_, [&](int pair) { return pairs_[as_index(pair)].landmark == landmark; });
 }
 
 void JointMatch::keep(double score) {
   best_score_ = score;
   std::ranges::fill(best_, kNothing);
-  for (const int pair : chosen_) best_[index(pairs_[index(pair)].sighting)] = pair;
+  for (const int pair : chosen_) best_[as_index(pairs_[as_index(pair)].sighting)] = pair;
 }
 
 /// Appends a pair's two rows to the Cholesky factor of the hypothesis. False, and nothing changed, where that
 /// is not compatible.
 bool JointMatch::choose(int pair) {
   const std::size_t k = chosen_.size();
-  const JointPair& p = pairs_[index(pair)];
+  const JointPair& p = pairs_[as_index(pair)];
   Eigen::Matrix2d* const row = &L_[k * steps_.size()];
-  Eigen::Matrix2d left = common(index(pair), index(pair)) + p.R;
+  Eigen::Matrix2d left = common(as_index(pair), as_index(pair)) + p.R;
   Eigen::Vector2d nu = p.nu;
   for (std::size_t j = 0; j < k; ++j) {
-    const std::size_t other = index(chosen_[j]);
-    Eigen::Matrix2d sum = index(pair) > other ? common(index(pair), other)
-                                              : Eigen::Matrix2d(common(other, index(pair)).transpose());
+    const std::size_t other = as_index(chosen_[j]);
+    Eigen::Matrix2d sum = as_index(pair) > other ? common(as_index(pair), other)
+                                                 : Eigen::Matrix2d(common(other, as_index(pair)).transpose());
     for (std::size_t i = 0; i < j; ++i) sum -= row[i] * L_[j * steps_.size() + i].transpose();
     row[j] = divided_by_transposed(sum, steps_[j].L);
     left -= row[j] * row[j].transpose();

@@ -10,6 +10,7 @@
 #include "waymark/calibrate/folds.hpp"
 #include "waymark/calibrate/weaknesses.hpp"
 #include "waymark/core/angle.hpp"
+#include "waymark/eval/median.hpp"
 
 namespace waymark::calibrate {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kBlurred_px = 4.0;
 constexpr double kBlurred = 2.0;  // times the median edge
 constexpr double kOutlier = 2.5;  // times the median error
 constexpr double kSignificant = 3.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 std::vector<std::size_t> used(const std::vector<View>& views) {
   std::vector<std::size_t> places;
@@ -56,7 +51,7 @@ ImageSize settle_size(std::vector<View>& views) {
 void drop_blurred(std::vector<View>& views) {
   std::vector<double> edges;
   for (const std::size_t i : used(views)) edges.push_back(views[i].edge_px);
-  const double usual_px = median(std::move(edges));
+  const double usual_px = *eval::median(std::move(edges));
   for (const std::size_t i : used(views))
     if (views[i].edge_px > std::max(kBlurred_px, kBlurred * usual_px)) {
       views[i].fate = Fate::kBlurred;
@@ -88,7 +83,7 @@ Result<CameraFit> fit_without_outliers(const Board& board, std::vector<View>& vi
     std::vector<double> errors;
     for (const FittedView& view : fit->views) errors.push_back(view.rms_px());
     const auto worst = std::ranges::max_element(errors);
-    const double usual_px = median(errors);
+    const double usual_px = *eval::median(errors);
     if (*worst <= kOutlier * usual_px || places.size() <= 2 * kLeastViews) return fit;
     View& view = views[places[static_cast<std::size_t>(worst - errors.begin())]];
     view.fate = Fate::kOutlier;

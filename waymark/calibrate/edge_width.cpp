@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "waymark/eval/median.hpp"
+
 namespace waymark::calibrate {
 namespace {
 
@@ -49,13 +51,6 @@ std::optional<double> width_of_edge(const ImageView& image, const Vector2d& a, c
   return kStep_px * (crossing(profile, dark + 0.9 * rise) - crossing(profile, dark + 0.1 * rise));
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 }  // namespace
 
 double edge_width_px(const ImageView& image, const Board& board, const BoardCorners& corners) {
@@ -71,7 +66,8 @@ double edge_width_px(const ImageView& image, const Board& board, const BoardCorn
     if ((index + 1) % board.corners.columns != 0) judge(pixel, index + 1, along_rows);
     judge(pixel, index + board.corners.columns, along_columns);
   }
-  return std::max(median(std::move(along_rows)), median(std::move(along_columns)));
+  return std::max(eval::median(std::move(along_rows)).value_or(0.0),
+                  eval::median(std::move(along_columns)).value_or(0.0));
 }
 
 }  // namespace waymark::calibrate

@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostRuns = 6;
 constexpr int kMostSmoothings = 15;
 /// What moves by less of its standard deviation has settled.
-constexpr double kSettled = 0.2;
+constexpr double kSettledPart = 0.2;
 constexpr const char* kDelayKey = "sensor.delay_s";
 constexpr const char* kShakingKey = "markers.mount_sigma_deg";
 
@@ -138,7 +138,7 @@ std::vector<Finding> findings_of(const SensorNoise& noise, const Run& run, const
 bool is_same(const std::vector<Finding>& a, const std::vector<Finding>& b) {
   return std::ranges::equal(a, b, [](const Finding& x, const Finding& y) {
     return x.found.key == y.found.key &&
-           std::abs(x.found.value - y.found.value) <= kSettled * std::max(x.found.sigma, y.found.sigma);
+           std::abs(x.found.value - y.found.value) <= kSettledPart * std::max(x.found.sigma, y.found.sigma);
   });
 }
 

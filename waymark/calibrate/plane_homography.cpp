@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
-using Points = std::vector<Vector2d>;
+using PlanePoints = std::vector<Vector2d>;
 
 /// Moves the points about the origin, at a mean distance of sqrt(2).
-Matrix3d scaling(const Points& points) {
+Matrix3d scaling(const PlanePoints& points) {
   Vector2d mean = Vector2d::Zero();
   for (const Vector2d& p : points) mean += p;
   mean /= static_cast<double>(points.size());
@@ -26,7 +26,7 @@ Matrix3d scaling(const Points& points) {
 }
 
 /// Two rows for each pair; the homography is in their null space.
-Eigen::MatrixX<double> equations(const Points& from, const Points& to, const Matrix3d& T_from,
+Eigen::MatrixX<double> equations(const PlanePoints& from, const PlanePoints& to, const Matrix3d& T_from,
                                  const Matrix3d& T_to) {
   Eigen::MatrixX<double> A(2 * static_cast<Eigen::Index>(from.size()), 9);
   A.setZero();
@@ -47,7 +47,7 @@ Eigen::MatrixX<double> equations(const Points& from, const Points& to, const Mat
 std::optional<Matrix3d> plane_homography(const Board& board, const BoardCorners& corners) {
   constexpr double kSingular = 1e-6;
   if (corners.size() < 4) return std::nullopt;
-  Points from, to;
+  PlanePoints from, to;
   for (const auto& [index, pixel] : corners) {
     from.push_back(board.corner_m(index));
     to.push_back(pixel);

@@ -9,7 +9,7 @@
 namespace waymark::calibrate {
 namespace {
 
-constexpr double kOutlier = 4.0;
+constexpr double kOutlierSigmas = 4.0;
 /// A part of the noise that is less surely there is left out.
 constexpr double kTold_sigmas = 2.0;
 
@@ -73,7 +73,7 @@ int drop_outliers(std::vector<Sample>& samples) {
   const std::size_t before = samples.size();
   for (std::size_t last = 0; last != samples.size();) {
     last = samples.size();
-    const double limit = kOutlier * kOutlier * variance_factor(samples).value;
+    const double limit = kOutlierSigmas * kOutlierSigmas * variance_factor(samples).value;
     std::erase_if(samples, [limit](const Sample& each) {
       return each.error * each.error > limit * each.stated * std::max(0.1, each.redundancy());
     });

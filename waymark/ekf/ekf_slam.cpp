@@ -5,21 +5,21 @@
 #include <optional>
 
 #include "waymark/core/gaussian.hpp"
+#include "waymark/ekf/negligible_change.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark {
 namespace {
 
-enum Block : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
+struct EkfBlock {
+  enum : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
+};
 
 // Gated sightings in a row that mean a lost robot, and the slip (x, y, theta) that is then tried first.
 constexpr int kMostGatedInARow = 5;
 constexpr int kMostDoublings = 8;
 const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
 
-// What the innovations after an update may differ from what was linearly expected of them, squared and in
-// units of the noise: a fifth of its standard deviation.
-constexpr double kNegligible = 0.04;
 constexpr double kStudentDof = 4.0;
 constexpr int kStudentIterations = 3;
 
@@ -156,7 +156,7 @@ void EkfSlam::predict(const Motion& motion) {
     errors_.drive(way_m(motion));
     way_m_ += way_m(motion);
   }
-  timer.finish(kPredict);
+  timer.finish(EkfBlock::kPredict);
 }
 
 const Correction& EkfSlam::correct(std::span<const Observation> observations) {
@@ -165,9 +165,9 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
   if (is_lost()) widen(observations);
   if (unnamed_) match_unnamed(observations);
-  timer.finish(kAssociate);
+  timer.finish(EkfBlock::kAssociate);
   update(observations);
-  timer.finish(kEstimate);
+  timer.finish(EkfBlock::kEstimate);
   if (unnamed_) {
     settle_leftovers(observations);
     update_existence();
@@ -176,7 +176,7 @@ const Correction& EkfSlam::correct(std::span<const Observation> observations) {
   }
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
-  timer.finish(kAdd);
+  timer.finish(EkfBlock::kAdd);
   correction_ = {innovations_, removed_};
   return correction_;
 }
@@ -389,7 +389,7 @@ bool EkfSlam::relinearize(std::span<const Observation> observations) {
                        std::abs(std::log(there->R(0, 0) / before.R(0, 0)))});
     refined_.push_back(*there);
   }
-  if (change < kNegligible) return false;
+  if (change < ekf::kNegligibleChange) return false;
   for (std::size_t k = 0; k < seen_.size(); ++k) sightings_[k] = state_.moved_back(refined_[k]);
   return true;
 }

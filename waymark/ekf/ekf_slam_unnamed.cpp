@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "waymark/core/as_index.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/models/observation_models.hpp"
@@ -25,8 +26,6 @@ constexpr double kMergeMargin = 3.0;
 constexpr double kFarthestTwin_m = 10.0;
 // Variance of the difference of a landmark and itself: as good as none, but S stays well conditioned.
 constexpr double kSameVariance_m2 = 1e-6;
-
-constexpr auto index(int i) { return static_cast<std::size_t>(i); }
 
 /// -2 log N(nu; 0, S) but for a constant.
 double cost_of(double nis, const Eigen::Matrix2d& S) { return nis + std::log(S.determinant()); }
@@ -79,7 +78,7 @@ void EkfSlam::index_places() {
   unnamed_->places.clear();
   unnamed_->sigma_m = 0.0;
   for (int k = 0; k < state_.landmarks(); ++k) {
-    Landmark& landmark = landmarks_[index(k)];
+    Landmark& landmark = landmarks_[as_index(k)];
     if (is_place_due(k, p_sensor)) landmark.place_m = state_.landmark(k).head<2>();
     unnamed_->places.push_back(landmark.place_m);
     unnamed_->sigma_m = std::max(unnamed_->sigma_m, landmark.sigma_m);
@@ -92,7 +91,7 @@ bool EkfSlam::is_place_due(int landmark, const Eigen::Vector2d& p_sensor) const 
   constexpr int kTurns = 16;
   constexpr double kMargin_m = 10.0;
   if (state_.is_active(landmark) || (landmark + unnamed_->scan) % kTurns == 0) return true;
-  const double far_m = (landmarks_[index(landmark)].place_m - p_sensor).norm();
+  const double far_m = (landmarks_[as_index(landmark)].place_m - p_sensor).norm();
   return far_m < unnamed_->sensor.max_range_m + kMargin_m;
 }
 
@@ -114,8 +113,8 @@ void EkfSlam::visit_candidates(const Observation& observation, const Visit& visi
   const double reach = reach_m(observation);
   const Eigen::Vector2d p_world = state_.pose().T_world_robot * T_robot_sensor_ * in_sensor(observation);
   unnamed_->grid.visit_near(p_world, k_sigma * (reach + unnamed_->sigma_m), [&](int k) {
-    const double far_m = (unnamed_->places[index(k)] - p_world).norm();
-    if (far_m > k_sigma * (reach + landmarks_[index(k)].sigma_m)) return;
+    const double far_m = (unnamed_->places[as_index(k)] - p_world).norm();
+    if (far_m > k_sigma * (reach + landmarks_[as_index(k)].sigma_m)) return;
     const auto sighting = linearize(k, observation);
     if (!sighting) return;
     const Eigen::Matrix2d S = state_.innovation_covariance(*sighting);
@@ -150,7 +149,7 @@ bool EkfSlam::consider(int landmark) {
 
 /// The log-odds that the landmark is sighted, over the density of sightings of nothing known.
 double EkfSlam::bonus(const Candidate& candidate, const Observation& observation) const {
-  const Landmark& landmark = landmarks_[index(candidate.sighting.landmark)];
+  const Landmark& landmark = landmarks_[as_index(candidate.sighting.landmark)];
   const double existence = landmark.existence ? landmark.existence->probability() : 1.0;
   return unnamed_->model.log_odds_of_sighting(existence) -
          unnamed_->model.log_density_of_others(range_m(observation));
@@ -161,14 +160,14 @@ void EkfSlam::match_jointly(std::span<const Observation> observations) {
   unnamed_->joint.clear();
   for (const Candidate& c : candidates)
     unnamed_->joint.add({c.observation, c.sighting.landmark, c.sighting.nu, c.sighting.R,
-                         bonus(c, observations[index(c.observation)])});
+                         bonus(c, observations[as_index(c.observation)])});
   state_.consider(unnamed_->considered);
   unnamed_->joint.solve(static_cast<int>(observations.size()), [&](int a, int b) {
-    return state_.common_covariance(candidates[index(a)].sighting, candidates[index(b)].sighting);
+    return state_.common_covariance(candidates[as_index(a)].sighting, candidates[as_index(b)].sighting);
   });
   for (int i = 0; i < static_cast<int>(observations.size()); ++i) {
     const int pair = unnamed_->joint.pair_of(i);
-    if (pair != JointMatch::kNothing) take_match(candidates[index(pair)]);
+    if (pair != JointMatch::kNothing) take_match(candidates[as_index(pair)]);
   }
 }
 
@@ -176,7 +175,7 @@ void EkfSlam::match_exclusively(std::span<const Observation> observations) {
   unnamed_->exclusive.clear();
   for (const Candidate& c : unnamed_->candidates)
     unnamed_->exclusive.add({c.observation, c.sighting.landmark,
-                             -0.5 * c.cost - kLogTwoPi + bonus(c, observations[index(c.observation)])});
+                             -0.5 * c.cost - kLogTwoPi + bonus(c, observations[as_index(c.observation)])});
   unnamed_->exclusive.solve(static_cast<int>(observations.size()), state_.landmarks(), 0.0);
   for (const Candidate& c : unnamed_->candidates)
     if (unnamed_->exclusive.landmark_of(c.observation) == c.sighting.landmark) take_match(c);
@@ -184,10 +183,10 @@ void EkfSlam::match_exclusively(std::span<const Observation> observations) {
 
 void EkfSlam::take_match(const Candidate& candidate) {
   const int landmark = candidate.sighting.landmark;
-  Landmark& matched = landmarks_[index(landmark)];
-  Innovation& innovation = innovations_[index(candidate.observation)];
-  unnamed_->open[index(candidate.observation)] = 0;
-  matched_[index(candidate.observation)] = landmark;
+  Landmark& matched = landmarks_[as_index(landmark)];
+  Innovation& innovation = innovations_[as_index(candidate.observation)];
+  unnamed_->open[as_index(candidate.observation)] = 0;
+  matched_[as_index(candidate.observation)] = landmark;
   innovation.landmark = matched.id;
   compare(innovation, candidate.sighting);
   errors_.sight(state_, matched.id);
@@ -211,7 +210,7 @@ bool EkfSlam::is_near_a_landmark(const Observation& observation) const {
 void EkfSlam::update_existence() {
   for (std::size_t i = 0; i < matched_.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kMatched) continue;
-    Landmark& seen = landmarks_[index(matched_[i])];
+    Landmark& seen = landmarks_[as_index(matched_[i])];
     if (seen.existence) seen.existence->see(unnamed_->model);
     seen.seen_at_way_m = way_m_;
     seen.claimed_at_scan = unnamed_->scan;
@@ -220,7 +219,7 @@ void EkfSlam::update_existence() {
   const PoseEstimate pose = state_.pose();
   const Eigen::Vector2d p_world = (pose.T_world_robot * T_robot_sensor_).position();
   unnamed_->grid.visit_near(p_world, unnamed_->sensor.max_range_m, [&](int k) {
-    Landmark& landmark = landmarks_[index(k)];
+    Landmark& landmark = landmarks_[as_index(k)];
     if (landmark.existence && landmark.claimed_at_scan != unnamed_->scan && should_be_seen(k))
       landmark.existence->miss(unnamed_->model);
   });
@@ -229,7 +228,7 @@ void EkfSlam::update_existence() {
 /// It is in view by three standard deviations of what would be measured.
 bool EkfSlam::should_be_seen(int landmark) const {
   const Pose2 T_world_sensor = state_.pose().T_world_robot * T_robot_sensor_;
-  const Eigen::Vector2d p_sensor = T_world_sensor.inverse() * unnamed_->places[index(landmark)];
+  const Eigen::Vector2d p_sensor = T_world_sensor.inverse() * unnamed_->places[as_index(landmark)];
   if (!is_in_view(unnamed_->sensor, p_sensor)) return false;
   const RangeBearing expected{p_sensor.norm(), std::atan2(p_sensor.y(), p_sensor.x())};
   const Observation observation{{}, expected, noise_covariance(unnamed_->sensor, expected)};
@@ -243,7 +242,7 @@ bool EkfSlam::should_be_seen(int landmark) const {
 void EkfSlam::merge_duplicates() {
   Duplicate best;
   for (int k = 0; k < state_.landmarks(); ++k)
-    if (landmarks_[index(k)].claimed_at_scan == unnamed_->scan) find_duplicates(k, best);
+    if (landmarks_[as_index(k)].claimed_at_scan == unnamed_->scan) find_duplicates(k, best);
   if (best.landmark >= 0) merge(best);
 }
 
@@ -252,9 +251,9 @@ void EkfSlam::merge_duplicates() {
 void EkfSlam::find_duplicates(int landmark, Duplicate& best) {
   const double log_others = std::log(std::max(unnamed_->model.landmarks_per_m2(), 1e-9));
   unnamed_->grid.visit_near(
-      unnamed_->places[index(landmark)], farthest_twin_m(unnamed_->model), [&](int twin) {
-        const bool named = !landmarks_[index(landmark)].existence && !landmarks_[index(twin)].existence;
-        if (twin == landmark || named || landmarks_[index(twin)].claimed_at_scan == unnamed_->scan) return;
+      unnamed_->places[as_index(landmark)], farthest_twin_m(unnamed_->model), [&](int twin) {
+        const bool named = !landmarks_[as_index(landmark)].existence && !landmarks_[as_index(twin)].existence;
+        if (twin == landmark || named || landmarks_[as_index(twin)].claimed_at_scan == unnamed_->scan) return;
         state_.consider(std::array{landmark, twin});
         const ekf::Sighting apart = difference(landmark, twin);
         const Eigen::Matrix2d S = state_.common_covariance(apart, apart) + apart.R;
@@ -287,13 +286,13 @@ void EkfSlam::merge(const Duplicate& duplicate) {
   const std::array same{difference(duplicate.landmark, duplicate.twin)};
   if (!state_.update(same)) return;
   const auto rank = [this](int k) {
-    const Landmark& landmark = landmarks_[index(k)];
+    const Landmark& landmark = landmarks_[as_index(k)];
     return std::pair(!landmark.existence, landmark.observations);
   };
   const bool twin_stays = rank(duplicate.twin) > rank(duplicate.landmark);
-  Landmark& stays = landmarks_[index(twin_stays ? duplicate.twin : duplicate.landmark)];
+  Landmark& stays = landmarks_[as_index(twin_stays ? duplicate.twin : duplicate.landmark)];
   const int goes = twin_stays ? duplicate.landmark : duplicate.twin;
-  stays.observations += landmarks_[index(goes)].observations;
+  stays.observations += landmarks_[as_index(goes)].observations;
   stays.seen_at_way_m = way_m_;
   stays.claimed_at_scan = unnamed_->scan;
   ++merges_;
@@ -303,7 +302,7 @@ void EkfSlam::merge(const Duplicate& duplicate) {
 /// Landmarks that were missed too often, and those that a single sighting left behind.
 void EkfSlam::forget_ghosts() {
   for (int k = state_.landmarks() - 1; k >= 0; --k) {
-    const Landmark& landmark = landmarks_[index(k)];
+    const Landmark& landmark = landmarks_[as_index(k)];
     if (!landmark.existence) continue;
     const bool is_stale =
         !landmark.existence->is_confirmed() && way_m_ - landmark.seen_at_way_m > kTentativeWay_m;
@@ -318,7 +317,7 @@ void EkfSlam::name(Innovation& added) {
 
 /// So large its errors may be until it is next seen.
 void EkfSlam::note_sigma(int landmark) {
-  landmarks_[index(landmark)].sigma_m =
+  landmarks_[as_index(landmark)].sigma_m =
       std::sqrt(state_.landmark_covariance(landmark).topLeftCorner<2, 2>().trace());
 }
 

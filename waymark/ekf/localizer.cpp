@@ -23,7 +23,7 @@ constexpr int kContradictions = 3;     // pairs of landmarks
 constexpr double kLongEnough_s = 8.0;  // of driving without a pose
 constexpr std::size_t kMostRemembered = 32;
 // Of the belief that the first update starts from: as good as nothing is known.
-const Eigen::Vector3d kAnywhere(10.0, 10.0, 1.0);
+const Eigen::Vector3d kAsGoodAsUnknown(10.0, 10.0, 1.0);
 
 /// First estimates of landmarks that stay are what they are; so no update is taken for news of how the map as
 /// a whole is turned, which the robot's sightings cannot tell.
@@ -189,7 +189,7 @@ std::string Localizer::reason(const PoseCandidates& found) const {
 
 const Correction& Localizer::settle(const PoseCandidate& found) {
   located_ = true;
-  ekf_.place_robot({found.T_world_robot, kAnywhere.cwiseAbs2().asDiagonal()});
+  ekf_.place_robot({found.T_world_robot, kAsGoodAsUnknown.cwiseAbs2().asDiagonal()});
   std::vector<Observation> agreeing;
   for (std::size_t k = 0; k < memory_.size(); ++k)
     if (found.landmarks[k] >= 0)

@@ -10,11 +10,14 @@
 #include "waymark/core/angle.hpp"
 #include "waymark/core/chi2.hpp"
 #include "waymark/core/gaussian.hpp"
+#include "waymark/ekf/negligible_change.hpp"
 
 namespace waymark {
 namespace {
 
-enum Block : std::size_t { kPredict, kProject, kJacobians, kEstimate, kWeights, kAdd };
+struct PixelBlock {
+  enum : std::size_t { kPredict, kProject, kJacobians, kEstimate, kWeights, kAdd };
+};
 
 // Anchors at most, so pictures whose rays may be under way at once.
 constexpr int kMostAnchors = 40;
@@ -38,9 +41,6 @@ constexpr double kFalseAlarms = 1e-3;
 // A patch is recognised under this turn of the view and between these ratios of distances.
 const double kLeastCosine = std::cos(to_radians(45.0));
 constexpr double kNearest = 0.4, kFarthest = 2.5;
-// What the innovations after an update may differ from what was linearly expected of them, squared and in
-// units of the noise: a fifth of its standard deviation.
-constexpr double kNegligible = 0.04;
 constexpr int kMostIterations = 5;
 /// What particles claim of a depth is made so many times less sure where the state learns it anew.
 constexpr double kWidening = 5.0;
@@ -147,7 +147,7 @@ void PixelSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_);
   in_picture_ = false;
   if (!is_still(motion) && is_finite(motion)) map_.state().predict(motion);
-  timer.finish(kPredict);
+  timer.finish(PixelBlock::kPredict);
 }
 
 void PixelSlam::begin_picture() {
@@ -246,7 +246,7 @@ std::span<const Expectation> PixelSlam::expect() {
   for (int i = 0; i < static_cast<int>(map_.features().size()); ++i) expect_feature(i, here);
   for (const Candidate& candidate : candidates_)
     if (candidate.anchor >= 0) expect_candidate(candidate);
-  timer.finish(kProject);
+  timer.finish(PixelBlock::kProject);
   return expectations_;
 }
 
@@ -374,17 +374,17 @@ const Correction& PixelSlam::correct(std::span<const Observation> observations) 
   if (!in_picture_) begin_picture();
   innovations_.assign(observations.size(), {});
   for (std::size_t i = 0; i < observations.size(); ++i) sort_out(i, observations[i]);
-  timer.finish(kJacobians);
+  timer.finish(PixelBlock::kJacobians);
   update(observations);
   settle_rays();
-  timer.finish(kEstimate);
+  timer.finish(PixelBlock::kEstimate);
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kMatched && find_candidate(innovations_[i].landmark) != nullptr)
       weigh(i, observations);
-  timer.finish(kWeights);
+  timer.finish(PixelBlock::kWeights);
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kAdded) begin(i, observations[i]);
-  timer.finish(kAdd);
+  timer.finish(PixelBlock::kAdd);
   correction_ = {innovations_, removed_};
   return correction_;
 }
@@ -566,7 +566,7 @@ bool PixelSlam::relinearize(std::span<const Observation> observations) {
     change = std::max(change, bent.dot(before.R.inverse() * bent));
     refined_.push_back(sighting);
   }
-  if (change < kNegligible) return false;
+  if (change < ekf::kNegligibleChange) return false;
   for (std::size_t k = 0; k < used_.size(); ++k) sightings_[k] = state.moved_back(refined_[k]);
   return true;
 }

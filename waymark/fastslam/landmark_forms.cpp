@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "waymark/core/angle.hpp"
+#include "waymark/fastslam/narrow.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark::fastslam {
@@ -39,20 +40,18 @@ constexpr float kPointSigmaPhi_rad = 0.1F;
 constexpr float kPointLinearity = 0.1F;
 constexpr float kMergeDistanceSquared = 1.0F;
 
-constexpr float narrow(double value) { return static_cast<float>(value); }
-
 bool is_alive(const LandmarkMode& mode, std::size_t i) { return mode.log_weight[i] > 0.5F * kDeadMode; }
 
-struct Numbers {
+struct ModeNumbers {
   float a, b, aa, ab, bb;
 };
 
-Numbers numbers(const LandmarkMode& mode, std::size_t i) {
+ModeNumbers numbers(const LandmarkMode& mode, std::size_t i) {
   const auto& g = mode.gaussian;
   return {g.a[i], g.b[i], g.aa[i], g.ab[i], g.bb[i]};
 }
 
-void set_numbers(const LandmarkMode& mode, std::size_t i, const Numbers& m) {
+void set_numbers(const LandmarkMode& mode, std::size_t i, const ModeNumbers& m) {
   const auto& g = mode.gaussian;
   g.a[i] = m.a;
   g.b[i] = m.b;
@@ -61,7 +60,7 @@ void set_numbers(const LandmarkMode& mode, std::size_t i, const Numbers& m) {
   g.bb[i] = m.bb;
 }
 
-float mahalanobis_squared(const Numbers& m, const Numbers& n) {
+float mahalanobis_squared(const ModeNumbers& m, const ModeNumbers& n) {
   const float da = n.a - m.a;
   const float db = n.b - m.b;
   const float aa = m.aa + n.aa;
@@ -72,8 +71,8 @@ float mahalanobis_squared(const Numbers& m, const Numbers& n) {
 
 /// The second hypothesis of particle i goes into the first, with the moments of both.
 void merge(const LandmarkMode& first, const LandmarkMode& second, std::size_t i) {
-  const Numbers m = numbers(first, i);
-  const Numbers n = numbers(second, i);
+  const ModeNumbers m = numbers(first, i);
+  const ModeNumbers n = numbers(second, i);
   const float difference = second.log_weight[i] - first.log_weight[i];
   const float part = 1.0F / (1.0F + std::exp(-difference));
   const float da = n.a - m.a;
@@ -143,7 +142,7 @@ void keep_best_modes(LandmarkStore& store, int landmark, ParticleBlocks& blocks)
 }
 
 /// p = anchor + d (cos phi, sin phi), d = 1 / rho or r, to first order.
-Numbers to_point(LandmarkForm form, const Numbers& m, float anchor_x, float anchor_y) {
+ModeNumbers to_point(LandmarkForm form, const ModeNumbers& m, float anchor_x, float anchor_y) {
   const bool is_ray = form == LandmarkForm::kRay;
   const float d = is_ray ? 1.0F / m.b : m.b;
   const float d_b = is_ray ? -d * d : 1.0F;
@@ -159,7 +158,7 @@ Numbers to_point(LandmarkForm form, const Numbers& m, float anchor_x, float anch
 }
 
 /// L = 4 sigma_d |cos alpha| / d of a ray, seen from a sensor.
-float linearity(const Numbers& m, float anchor_x, float anchor_y, float sensor_x, float sensor_y) {
+float linearity(const ModeNumbers& m, float anchor_x, float anchor_y, float sensor_x, float sensor_y) {
   const float depth = 1.0F / m.b;
   const float c = std::cos(m.a);
   const float s = std::sin(m.a);
@@ -187,7 +186,7 @@ bool is_linear_ray(const LandmarkStore& store, int landmark, const Particles& pa
         load_sensors(particles, mount, origin_m, {begin, end - begin}, scratch);
     std::array<double, 1> sum{};
     for (std::size_t i = begin; i < end; ++i) {
-      const Numbers m = numbers(view.modes[0], i);
+      const ModeNumbers m = numbers(view.modes[0], i);
       const float L = linearity(m, view.anchor_x[i] + view.offset_x, view.anchor_y[i] + view.offset_y,
                                 sensors.x[i - begin], sensors.y[i - begin]);
       if (!(m.b > 0.0F) || !(L < kPointLinearity)) sum[0] += particles.weights()[i];
@@ -203,8 +202,8 @@ Eigen::Vector2d direction_of(const SeenLandmark& seen, const LandmarkSensor& sen
 }
 
 /// The landmark at (range, bearing) from one particle's sensor, as unsure as R in the frame of its ray.
-Numbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin_m, const RangeBearing& z,
-                      const Eigen::Vector2d& R) {
+ModeNumbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin_m, const RangeBearing& z,
+                          const Eigen::Vector2d& R) {
   const auto [p, G_pose, G] = RangeBearingModel::locate(T_world_sensor, {}, z);
   const Eigen::Vector2f mean = (p - origin_m).cast<float>();
   const Eigen::Matrix2f Sigma = (G * R.asDiagonal() * G.transpose()).cast<float>();

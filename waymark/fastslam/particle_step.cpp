@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "waymark/fastslam/narrow.hpp"
+
 namespace waymark::fastslam {
 namespace {
 
 using kernels::ParticleRange;
-
-constexpr float narrow(double value) { return static_cast<float>(value); }
 
 void draw_block(Particles& particles, const kernels::Increment& increment, const StreamKey& key,
                 BlockScratch& scratch, ParticleRange range) {

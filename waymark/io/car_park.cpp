@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* kBeaconsFile = "beac_juan3.mat";
 constexpr Eigen::Index kBeams = 361;
 
-Result<void> read_steering(const MatFile& file, std::vector<Event>& events) {
+Result<void> read_car_steering(const MatFile& file, std::vector<Event>& events) {
   const auto stamps = read_stamps(file, "Time_VS", 1.0);
   if (!stamps) return stamps.error();
   const auto v_mps = file.vector("Velocity", "m/s");
@@ -78,7 +78,7 @@ Result<std::unique_ptr<Source>> open_car_park(const MatFile& file) {
   if (!info) return info.error();
   if (auto done = read_beacons(file.path().parent_path() / kBeaconsFile, *info); !done) return done.error();
   std::vector<Event> events;
-  if (auto done = read_steering(file, events); !done) return done.error();
+  if (auto done = read_car_steering(file, events); !done) return done.error();
   if (auto done = read_scans(file, events); !done) return done.error();
   const auto fixes = read_fixes(file, "TimeGPS", 1.0, "GPSLon", "GPSLat");
   if (!fixes) return fixes.error();

@@ -23,21 +23,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<EventContent> read_wheels(TextTable& row, Tally&) {
+std::optional<EventContent> read_wheels_row(TextTable& row, Tally&) {
   return WheelAngles{row.number(1), row.number(2)};
 }
-std::optional<EventContent> read_velocity(TextTable& row, Tally&) {
+std::optional<EventContent> read_velocity_row(TextTable& row, Tally&) {
   return Velocity{row.number(1), row.number(2)};
 }
-std::optional<EventContent> read_steering(TextTable& row, Tally&) {
+std::optional<EventContent> read_steering_row(TextTable& row, Tally&) {
   return Steering{row.number(1), row.number(2)};
 }
 
-std::optional<EventContent> read_odometry(TextTable& row, Tally&) {
+std::optional<EventContent> read_odometry_row(TextTable& row, Tally&) {
   return OdometryPose{{row.number(1), row.number(2), row.number(3)}};
 }
 
-std::optional<EventContent> read_truth(TextTable& row, Tally&) {
+std::optional<EventContent> read_truth_row(TextTable& row, Tally&) {
   return Truth{row.number(1), row.number(2), row.is_empty(3) ? std::nullopt : std::optional(row.number(3))};
 }
 
@@ -308,12 +308,9 @@ Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
 
   // In the order that events of one stamp come in.
   const std::vector<std::pair<log_format::Table, EventStream::ReadRow>> tables{
-      {log_format::kWheels, read_wheels},
-      {log_format::kVelocity, read_velocity},
-      {log_format::kSteering, read_steering},
-      {log_format::kOdometry, read_odometry},
-      {log_format::kTruth, read_truth},
-      {log_format::kObservations, read_observation},
+      {log_format::kWheels, read_wheels_row},         {log_format::kVelocity, read_velocity_row},
+      {log_format::kSteering, read_steering_row},     {log_format::kOdometry, read_odometry_row},
+      {log_format::kTruth, read_truth_row},           {log_format::kObservations, read_observation},
       {log_format::kImages, read_image_below(folder)}};
   std::vector<EventStream> streams;
   for (const auto& [format, read_row] : tables)

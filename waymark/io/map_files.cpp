@@ -14,6 +14,7 @@
 #include "waymark/io/number_text.hpp"
 #include "waymark/io/text_lines.hpp"
 #include "waymark/io/text_table.hpp"
+#include "waymark/io/upper_triangle.hpp"
 
 namespace waymark {
 namespace {
@@ -24,16 +25,13 @@ constexpr std::string_view kMapEnd = "end";
 constexpr std::array<std::string_view, 4> kFamilies{"none", "marker", "barcode",
                                                     "corner"};  // in order of the enum
 
-/// Rows and columns of a covariance's upper triangle, row by row.
-constexpr std::array<std::pair<int, int>, 6> kUpper{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
-
 LandmarkEstimate read_landmark(TextTable& row) {
   LandmarkEstimate landmark;
   const int number = row.integer(0);
   if (number >= 0) landmark.id = {LandmarkId::Family::kMarker, number};
   landmark.position_m = {row.number(1), row.number(2), row.number(3)};
   std::size_t column = 4;
-  for (const auto& [i, j] : kUpper)
+  for (const auto& [i, j] : kUpperTriangle)
     landmark.covariance(i, j) = landmark.covariance(j, i) = row.number(column++);
   landmark.observations = row.integer(column);
   if (!is_covariance(landmark.covariance)) row.fail("the covariance is not positive semi-definite");
@@ -308,7 +306,7 @@ std::string format_map_csv(const Snapshot& snapshot) {
   for (const auto& landmark : snapshot.landmarks) {
     append_integer(text, landmark.id.number);
     for (const double coordinate : landmark.position_m) append_shortest(text += ',', coordinate);
-    for (const auto& [i, j] : kUpper) append_shortest(text += ',', landmark.covariance(i, j));
+    for (const auto& [i, j] : kUpperTriangle) append_shortest(text += ',', landmark.covariance(i, j));
     append_integer(text += ',', landmark.observations);
     text += '\n';
   }

@@ -16,7 +16,7 @@
 namespace waymark {
 namespace {
 
-using File = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
+using MatHandle = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
 using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 
 bool is_plain_matrix(const matvar_t& variable) {
@@ -62,7 +62,7 @@ Result<MatFile> MatFile::open(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return bytes.error();
   if (auto checked = check_mat_structure(*bytes, path.string()); !checked) return checked.error();
-  const File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
+  const MatHandle file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
   if (!file) return Error{path.string() + ": is no MATLAB file that can be read"};
   MatFile content;
   content.path_ = path;

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kCameraFile = "camera.dat";
 constexpr const char* kTrajectoryFile = "trajectory.dat";
 constexpr const char* kWorldFile = "world.dat";
-constexpr auto kBlank = TableLayout::Separator::kBlank;
+constexpr auto kByBlanks = TableLayout::Separator::kBlank;
 constexpr int kLastStep = 1'000'000;
 constexpr Duration kStep = std::chrono::milliseconds(200);
 /// What the recorded points are off by rounding, at most, px; less is claimed of no pixel.
@@ -36,7 +36,7 @@ constexpr double kRounding_px = 0.1;
 
 Stamp stamp_of(int step) { return Stamp{} + step * kStep; }
 
-LandmarkId landmark_id(int number) { return {LandmarkId::Family::kMarker, number}; }
+LandmarkId marker_id(int number) { return {LandmarkId::Family::kMarker, number}; }
 
 /// All that is left of a line.
 Result<std::vector<double>> read_numbers(const TextLines& lines, std::string_view rest, std::size_t count,
@@ -149,11 +149,11 @@ Result<Settings> read_camera(const fs::path& file) {
 }
 
 Result<void> read_world(const fs::path& file, LogInfo& info) {
-  auto table = TextTable::open(file, {"id,x_m,y_m,z_m", kBlank, ""});
+  auto table = TextTable::open(file, {"id,x_m,y_m,z_m", kByBlanks, ""});
   if (!table) return table.error();
   while (table->next())
     info.landmarks.push_back(
-        {landmark_id(table->integer(0)), table->number(1), table->number(2), table->number(3)});
+        {marker_id(table->integer(0)), table->number(1), table->number(2), table->number(3)});
   if (table->error()) return *table->error();
   return {};
 }
@@ -166,7 +166,7 @@ Result<Observation> read_point(const TextLines& lines, std::string_view rest) {
   if (id < 0.0 || id > 1e9 || id != std::floor(id))
     return lines.error("WORLD_ID must be a whole number from 0 on");
   const Pixel pixel{(*numbers)[2], (*numbers)[3]};
-  return Observation{landmark_id(static_cast<int>(id)), pixel, std::nullopt};
+  return Observation{marker_id(static_cast<int>(id)), pixel, std::nullopt};
 }
 
 Result<Observations> read_points(const fs::path& file, int step) {
@@ -214,7 +214,7 @@ int read_step(TextTable& row, int last) {
 
 Result<std::vector<Event>> read_steps(const fs::path& folder, const PixelNoise& noise) {
   auto row = TextTable::open(folder / kTrajectoryFile,
-                             {"step,odometry_x,odometry_y,odometry_theta,x,y,theta", kBlank, ""});
+                             {"step,odometry_x,odometry_y,odometry_theta,x,y,theta", kByBlanks, ""});
   if (!row) return row.error();
   std::vector<Event> events;
   for (int step = -1; row->next();) {

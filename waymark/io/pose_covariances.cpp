@@ -8,19 +8,17 @@
 #include "waymark/io/files.hpp"
 #include "waymark/io/number_text.hpp"
 #include "waymark/io/text_table.hpp"
+#include "waymark/io/upper_triangle.hpp"
 
 namespace waymark {
 namespace {
 
 constexpr std::string_view kColumns = "stamp_s,sxx,sxy,sxt,syy,syt,stt";
 
-/// Rows and columns of the upper triangle, row by row.
-constexpr std::array<std::pair<int, int>, 6> kUpper{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
-
 Eigen::Matrix3d read_covariance(TextTable& row) {
   Eigen::Matrix3d P;
   std::size_t column = 1;
-  for (const auto& [i, j] : kUpper) P(i, j) = P(j, i) = row.number(column++);
+  for (const auto& [i, j] : kUpperTriangle) P(i, j) = P(j, i) = row.number(column++);
   if (!is_covariance(P)) row.fail("the covariance is not positive semi-definite");
   return P;
 }
@@ -32,7 +30,7 @@ Result<void> write_pose_covariances(const std::filesystem::path& path, const Tra
   for (const auto& point : trajectory) {
     if (!point.covariance) continue;
     append_stamp(text, point.stamp);
-    for (const auto& [i, j] : kUpper) append_shortest(text += ',', (*point.covariance)(i, j));
+    for (const auto& [i, j] : kUpperTriangle) append_shortest(text += ',', (*point.covariance)(i, j));
     text += '\n';
   }
   return write_file(path, text);

@@ -30,20 +30,21 @@ struct Measured {
 };
 
 /// A kind of line and how many numbers it has.
-struct Layout {
+struct LineLayout {
   std::string_view kind;
   std::size_t numbers;
   std::string_view meaning;
 };
 
-constexpr Layout kRange{"range2", 7, "time, range, variance, anchor x, anchor y, anchor id, SNR"};
-constexpr Layout kWheels{"odom2diff", 8, "time, left and right speed, sideways speed, track, 3 variances"};
-constexpr Layout kPoint{"point2", 7, "time, x, y, 4 variances"};
+constexpr LineLayout kRange{"range2", 7, "time, range, variance, anchor x, anchor y, anchor id, SNR"};
+constexpr LineLayout kWheels{"odom2diff", 8,
+                             "time, left and right speed, sideways speed, track, 3 variances"};
+constexpr LineLayout kPoint{"point2", 7, "time, x, y, 4 variances"};
 
-Result<Measured> parse(const TextLines& lines, const std::vector<Layout>& layouts) {
+Result<Measured> parse(const TextLines& lines, const std::vector<LineLayout>& layouts) {
   std::string_view rest = lines.line();
   Measured measured{.kind = take_word(rest), .numbers = {}, .stamp = {}};
-  const auto layout = std::ranges::find(layouts, measured.kind, &Layout::kind);
+  const auto layout = std::ranges::find(layouts, measured.kind, &LineLayout::kind);
   if (layout == layouts.end()) return lines.error(in_quotes(measured.kind) + " is no known kind of line");
   const std::string_view time = take_word(rest);
   const auto stamp = parse_stamp(time);
@@ -63,7 +64,7 @@ Result<Measured> parse(const TextLines& lines, const std::vector<Layout>& layout
 
 /// Reads line by line; the first error ends it.
 template <class Use>
-Result<void> for_each_line(const fs::path& file, const std::vector<Layout>& layouts, const Use& use) {
+Result<void> for_each_line(const fs::path& file, const std::vector<LineLayout>& layouts, const Use& use) {
   auto lines = TextLines::open(file);
   if (!lines) return lines.error();
   while (lines->next()) {
@@ -115,7 +116,7 @@ Result<void> read_input(const fs::path& file, LogInfo& info, std::vector<Event>&
       });
 }
 
-Result<void> read_truth(const fs::path& file, std::vector<Event>& events) {
+Result<void> read_labyrinth_truth(const fs::path& file, std::vector<Event>& events) {
   if (!fs::exists(file)) return {};
   return for_each_line(file, {kPoint}, [&](const Measured& m, const TextLines&) -> Result<void> {
     events.emplace_back(m.stamp, Truth{m.numbers[1], m.numbers[2], std::nullopt});
@@ -136,7 +137,7 @@ Result<std::unique_ptr<Source>> open_uwb_labyrinth(const fs::path& folder) {
   info.settings = *std::move(settings);
   std::vector<Event> events;
   if (auto done = read_input(folder / kInputFile, info, events); !done) return done.error();
-  if (auto done = read_truth(folder / kTruthFile, events); !done) return done.error();
+  if (auto done = read_labyrinth_truth(folder / kTruthFile, events); !done) return done.error();
   return std::unique_ptr<Source>(std::make_unique<EventList>(std::move(info), std::move(events)));
 }
 

@@ -39,7 +39,7 @@ Result<void> read_trees(const MatFile& file, std::vector<Event>& events) {
   return {};
 }
 
-Result<void> read_steering(const MatFile& file, std::vector<Event>& events) {
+Result<void> read_truck_steering(const MatFile& file, std::vector<Event>& events) {
   const auto stamps = read_stamps(file, "time", 1.0);
   if (!stamps) return stamps.error();
   const auto u = file.transposed("u", 2, "speed m/s, steering rad");
@@ -50,7 +50,7 @@ Result<void> read_steering(const MatFile& file, std::vector<Event>& events) {
 }
 
 /// Nothing is added where there is no file. What a reader of the truth must know.
-Result<std::vector<std::string>> read_truth(const fs::path& path, std::vector<Event>& events) {
+Result<std::vector<std::string>> read_clean_fixes(const fs::path& path, std::vector<Event>& events) {
   if (!fs::exists(path)) return std::vector<std::string>{"no aa3_gpsx.mat beside the log: no truth"};
   const auto file = MatFile::open(path);
   if (!file) return file.error();
@@ -72,9 +72,9 @@ Result<std::unique_ptr<Source>> open_victoria_park(const MatFile& file) {
   auto info = vehicle_info("Victoria Park", "Victoria Park", kVictoriaParkSettings);
   if (!info) return info.error();
   std::vector<Event> events;
-  if (auto done = read_steering(file, events); !done) return done.error();
+  if (auto done = read_truck_steering(file, events); !done) return done.error();
   if (auto done = read_trees(file, events); !done) return done.error();
-  auto notes = read_truth(file.path().parent_path() / kFixesFile, events);
+  auto notes = read_clean_fixes(file.path().parent_path() / kFixesFile, events);
   if (!notes) return notes.error();
   return std::unique_ptr<Source>(
       std::make_unique<EventList>(*std::move(info), std::move(events), *std::move(notes)));

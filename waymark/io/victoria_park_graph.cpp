@@ -65,16 +65,16 @@ class Mileage {
 };
 
 /// One kind of line of the graph.
-struct Layout {
+struct EdgeLine {
   std::string_view kind;
   std::size_t numbers;
   std::string_view meaning;
 };
 
-constexpr Layout kOdometryLine{"ODOMETRY", 11, "two poses, dx, dy, dtheta and 6 of covariance"};
-constexpr Layout kLandmarkLine{"LANDMARK", 7, "a pose, a landmark, dx, dy and 3 of covariance"};
+constexpr EdgeLine kOdometryLine{"ODOMETRY", 11, "two poses, dx, dy, dtheta and 6 of covariance"};
+constexpr EdgeLine kLandmarkLine{"LANDMARK", 7, "a pose, a landmark, dx, dy and 3 of covariance"};
 
-Result<std::vector<double>> read_numbers(std::string_view rest, const Layout& layout,
+Result<std::vector<double>> read_numbers(std::string_view rest, const EdgeLine& layout,
                                          const TextLines& lines) {
   std::vector<double> numbers;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {

@@ -21,7 +21,7 @@ using calibrate::View;
 constexpr std::size_t kMostPictures = 60;
 
 /// As many digits as a picture shows.
-double rounded_px(double px) { return std::round(1000.0 * px) / 1000.0; }
+double in_thousandths(double px) { return std::round(1000.0 * px) / 1000.0; }
 
 Json intrinsics_json(const CameraCalibration& calibration) {
   constexpr std::array kNames{"fu_px", "fv_px", "cu_px", "cv_px", "k1", "k2", "p1", "p2", "k3"};
@@ -58,7 +58,8 @@ Json corners_json(const View& view) {
   Json rows = Json::array();
   for (std::size_t i = 0; i < view.fit.residuals_px.size(); ++i) {
     const Eigen::Vector2d &p = view.corners[i].pixel, &r = view.fit.residuals_px[i];
-    rows.push_back({rounded_px(p.x()), rounded_px(p.y()), rounded_px(r.x()), rounded_px(r.y())});
+    rows.push_back(
+        {in_thousandths(p.x()), in_thousandths(p.y()), in_thousandths(r.x()), in_thousandths(r.y())});
   }
   return rows;
 }

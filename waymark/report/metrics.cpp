@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "waymark/report/micros.hpp"
+#include "waymark/report/rounded.hpp"
 #include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
@@ -21,16 +23,6 @@ const char* name(FilterKind kind) { return kind == FilterKind::kEkf ? "ekf" : "f
 std::string setting(const Config& config, const char* key) {
   Config copy = config;
   return describe(copy).value(key);
-}
-
-double micros(Duration d) { return 1e6 * to_seconds(d); }
-
-/// Four significant digits below a thousand are more than any of these figures deserve; NaN cannot be
-/// written.
-Json rounded(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(value), 1e-12))) - 5.0);
-  return std::stod(fmt::format("{:.10g}", std::round(value / unit) * unit));
 }
 
 void put(Json& json, const char* key, const std::optional<double>& value) {

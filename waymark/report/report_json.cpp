@@ -147,17 +147,17 @@ const char* name_of(vision::Look::Result result, bool refused) {
   return "not tried";
 }
 
-double rounded_px(double px) { return std::round(100.0 * px) / 100.0; }
+double in_hundredths(double px) { return std::round(100.0 * px) / 100.0; }
 
 Json to_json(const vision::Look& look, const FilmFrame& frame) {
   const bool refused = std::ranges::find(frame.refused, look.id) != frame.refused.end();
   return {{"id", look.id.number},
           {"candidate", look.candidate},
           {"result", name_of(look.result, refused)},
-          {"u", rounded_px(look.pixel.x())},
-          {"v", rounded_px(look.pixel.y())},
-          {"predicted_u", rounded_px(look.predicted_px.x())},
-          {"predicted_v", rounded_px(look.predicted_px.y())},
+          {"u", in_hundredths(look.pixel.x())},
+          {"v", in_hundredths(look.pixel.y())},
+          {"predicted_u", in_hundredths(look.predicted_px.x())},
+          {"predicted_v", in_hundredths(look.predicted_px.y())},
           {"sxx", rounded(look.S(0, 0))},
           {"sxy", rounded(look.S(0, 1))},
           {"syy", rounded(look.S(1, 1))}};

@@ -6,6 +6,7 @@
 
 #include "waymark/eval/align.hpp"
 #include "waymark/report/article_times.hpp"
+#include "waymark/report/micros.hpp"
 #include "waymark/report/path_series.hpp"
 #include "waymark/slam/make_filter.hpp"
 
@@ -13,8 +14,6 @@ namespace waymark {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-double micros(Duration d) { return 1e6 * to_seconds(d); }
 
 /// Report times count from the first pose of the run, so that axes read in seconds and not in Unix time.
 class Clock {

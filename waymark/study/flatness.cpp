@@ -12,7 +12,7 @@ namespace waymark::study {
 namespace {
 
 constexpr double kFall = 2.0;
-constexpr double kFirstStep = 0.1;  // of a key's first step in the search
+constexpr double kPartOfFirstStep = 0.1;  // of a key's first step in the search
 constexpr int kMostSteps = 9;
 constexpr int kMostInwards = 4;
 
@@ -67,7 +67,7 @@ class Explorer {
       if (there) side.points.emplace_back(distance, value - problem_.value(problem_.total(*there)));
       return there.has_value();
     };
-    double distance = std::min(end, kFirstStep * problem_.keys()[key].first_step());
+    double distance = std::min(end, kPartOfFirstStep * problem_.keys()[key].first_step());
     double inwards = distance;
     for (int step = 0; step < kMostSteps && distance > side.points.back().first; ++step) {
       if (!look(distance)) return std::nullopt;

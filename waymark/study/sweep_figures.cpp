@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "waymark/core/angle.hpp"
@@ -12,12 +11,10 @@
 namespace waymark::study {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Figures by their names.
 class Table {
  public:
-  Table() { figures_.fill(kUnknown); }
+  Table() { figures_.fill(kUnknownFigure); }
 
   void set(std::string_view name, const std::optional<double>& value) {
     const auto place = std::ranges::find(kFigureNames, name) - kFigureNames.begin();
@@ -88,7 +85,7 @@ std::optional<SweepRow> make_run(const SweepPlan& plan, const SweepPoint& point,
   });
   if (stopped) return std::nullopt;
   SweepRow row{point, {}, {}};
-  row.figures.fill(kUnknown);
+  row.figures.fill(kUnknownFigure);
   if (!run)
     row.error = cell(run.error().message);
   else if (run->recording.error)

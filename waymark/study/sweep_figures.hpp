@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,7 @@ inline constexpr std::array<std::string_view, 19> kFigureNames{"position_rmse_m"
                                                                "wall_s"};
 
 using Figures = std::array<double, kFigureNames.size()>;
+inline constexpr double kUnknownFigure = std::numeric_limits<double>::quiet_NaN();
 
 /// A run of a sweep as one row of its table.
 struct SweepRow {

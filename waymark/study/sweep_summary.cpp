@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -10,11 +9,9 @@
 namespace waymark::study {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Linear between the nearest ranks; `sorted` is.
 double quantile(const std::vector<double>& sorted, double q) {
-  if (sorted.empty()) return kUnknown;
+  if (sorted.empty()) return kUnknownFigure;
   const double place = q * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const auto above = std::min(below + 1, sorted.size() - 1);

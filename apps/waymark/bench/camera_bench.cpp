@@ -23,13 +23,15 @@ namespace {
 
 constexpr const char* kRoom = "sim:room";
 
-struct Plan {
+struct CameraPlan {
   double drive_s;
   std::size_t rounds;
   int repetitions;  ///< of a kernel in a round
 };
 
-Plan plan_of(BenchScope scope) { return scope == BenchScope::kQuick ? Plan{4.0, 3, 10} : Plan{24.0, 7, 50}; }
+CameraPlan camera_plan(BenchScope scope) {
+  return scope == BenchScope::kQuick ? CameraPlan{4.0, 3, 10} : CameraPlan{24.0, 7, 50};
+}
 
 /// A drive held in memory, pictures and all.
 struct Drive {
@@ -58,7 +60,7 @@ Drive render(double drive_s, const BenchProgress& progress) {
 }
 
 /// Median over rounds of the time for one of `count` pieces of work per call, s.
-double time_s(const Plan& plan, double count, const std::function<void()>& work) {
+double time_s(const CameraPlan& plan, double count, const std::function<void()>& work) {
   std::vector<double> rounds;
   for (std::size_t round = 0; round < plan.rounds; ++round) {
     const Duration start = thread_cpu_time();
@@ -68,7 +70,7 @@ double time_s(const Plan& plan, double count, const std::function<void()>& work)
   return *eval::median(rounds);
 }
 
-void append_corners(std::vector<BenchResult>& results, const Plan& plan, const GreyImage& picture) {
+void append_corners(std::vector<BenchResult>& results, const CameraPlan& plan, const GreyImage& picture) {
   for (const int arc : {9, 12}) {
     vision::CornerDetector detector({.arc = arc});
     const double spent_s = time_s(plan, 1.0, [&] { (void)detector.detect(picture); });
@@ -89,7 +91,7 @@ std::vector<kernels::WindowRow> circle(int radius) {
   return rows;
 }
 
-void append_zmssd(std::vector<BenchResult>& results, const Plan& plan, const Machine& machine,
+void append_zmssd(std::vector<BenchResult>& results, const CameraPlan& plan, const Machine& machine,
                   const GreyImage& picture) {
   const auto rows = circle(12);
   int windows = 0;
@@ -171,7 +173,7 @@ void append_published(std::vector<BenchResult>& results, const Recording& record
 
 std::vector<BenchResult> bench_camera(const Machine& machine, BenchScope scope,
                                       const BenchProgress& progress) {
-  const Plan plan = plan_of(scope);
+  const CameraPlan plan = camera_plan(scope);
   const Drive drive = render(plan.drive_s, [&](double fraction) { progress(0.6 * fraction); });
   std::vector<BenchResult> results;
   append_corners(results, plan, drive.last_picture());

@@ -14,11 +14,10 @@
 
 #include "plain_ekf.hpp"
 #include "synthetic_run.hpp"
+#include "wall_time.hpp"
 
 namespace waymark::app {
 namespace {
-
-constexpr int kSightings = 10;
 
 /// One map size: as many steps per round as give a steady median in bearable time.
 struct Size {
@@ -32,16 +31,14 @@ constexpr std::array kSizes{Size{50, 200, true, false, false}, Size{200, 100, fa
                             Size{1000, 20, false, true, true}, Size{2000, 8, false, true, true}};
 constexpr std::array kQuickSizes{Size{50, 20, true, false, false}, Size{200, 10, false, true, true}};
 
-struct Plan {
+struct EkfPlan {
   std::span<const Size> sizes;
   std::size_t rounds;
 };
 
-Plan plan_of(BenchScope scope) {
-  return scope == BenchScope::kQuick ? Plan{kQuickSizes, 3} : Plan{kSizes, 7};
+EkfPlan ekf_plan(BenchScope scope) {
+  return scope == BenchScope::kQuick ? EkfPlan{kQuickSizes, 3} : EkfPlan{kSizes, 7};
 }
-
-Duration wall_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 /// One way to make the step, and its median step time of every round so far.
 struct Contender {
@@ -183,7 +180,7 @@ class SizeBench {
 }  // namespace
 
 std::vector<BenchResult> bench_ekf(const Machine& machine, BenchScope scope, const BenchProgress& progress) {
-  const auto [sizes, rounds] = plan_of(scope);
+  const auto [sizes, rounds] = ekf_plan(scope);
   std::vector<BenchResult> results;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     SizeBench bench(sizes[i], rounds, machine);

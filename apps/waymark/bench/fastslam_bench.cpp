@@ -14,13 +14,12 @@
 
 #include "plain_fastslam.hpp"
 #include "synthetic_run.hpp"
+#include "wall_time.hpp"
 
 namespace waymark::app {
 namespace {
 
-constexpr int kSightings = 10;
-
-struct Plan {
+struct FastSlamPlan {
   std::size_t rounds;
   int steps;                ///< per round
   int particles;            ///< of the whole steps
@@ -28,12 +27,10 @@ struct Plan {
   int many;                 ///< particles of the largest run; 0: none
 };
 
-Plan plan_of(BenchScope scope) {
+FastSlamPlan fastslam_plan(BenchScope scope) {
   if (scope == BenchScope::kQuick) return {3, 20, 200, {10, 100, 300, 1000}, 0};
   return {7, 40, 1000, {10, 100, 1000, 10000}, 1'000'000};
 }
-
-Duration wall_time() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 enum class Kind { kRangeBearing, kRange, kBearing };
 
@@ -138,7 +135,7 @@ class LandmarkUpdates {
 
 class FastSlamBench {
  public:
-  FastSlamBench(const Plan& plan, const BenchProgress& progress) : plan_(plan), progress_(progress) {}
+  FastSlamBench(const FastSlamPlan& plan, const BenchProgress& progress) : plan_(plan), progress_(progress) {}
 
   std::vector<BenchResult> measure() {
     const std::array jobs{&FastSlamBench::updates, &FastSlamBench::steps, &FastSlamBench::resamplings,
@@ -289,7 +286,7 @@ class FastSlamBench {
     return std::span(run.steps).subspan(round * steps, steps);
   }
 
-  Plan plan_;
+  FastSlamPlan plan_;
   const BenchProgress& progress_;
   std::vector<BenchResult> results_;
 };
@@ -298,7 +295,7 @@ class FastSlamBench {
 
 std::vector<BenchResult> bench_fastslam(const Machine& /*machine*/, BenchScope scope,
                                         const BenchProgress& progress) {
-  return FastSlamBench(plan_of(scope), progress).measure();
+  return FastSlamBench(fastslam_plan(scope), progress).measure();
 }
 
 }  // namespace waymark::app

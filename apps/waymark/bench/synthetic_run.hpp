@@ -7,6 +7,9 @@
 
 namespace waymark::app {
 
+/// Per step of what is compared with other programs.
+inline constexpr int kSightings = 10;
+
 /// A robot on a circle in a field of landmarks, one per 16 m^2, in the middle of the square that they fill.
 struct SyntheticRun {
   struct Step {

@@ -13,10 +13,10 @@
 namespace waymark::bag {
 namespace {
 
-constexpr std::string_view kAnyVersion = "\x89MCAP";
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kAnyMcap = "\x89MCAP";
+constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 
-enum class Op : std::uint8_t {
+enum class McapOp : std::uint8_t {
   kFooter = 0x02,
   kSchema = 0x03,
   kChannel = 0x04,
@@ -35,14 +35,14 @@ constexpr std::size_t kMessageHeadSize = 2 + 4 + 8 + 8;
 constexpr std::size_t kFooterSize = kHeadSize + 8 + 8 + 4;
 
 struct Head {
-  Op op{};
+  McapOp op{};
   std::uint64_t size = 0;
 };
 
 std::optional<Head> take_head(BufferedStream& stream) {
   const auto raw = stream.take(kHeadSize);
   if (!raw) return std::nullopt;
-  return Head{static_cast<Op>(raw->front()), load<std::uint64_t>(raw->data() + 1)};
+  return Head{static_cast<McapOp>(raw->front()), load<std::uint64_t>(raw->data() + 1)};
 }
 
 /// Nanoseconds; what a Stamp cannot hold, or nearly not, is nonsense and becomes 0.
@@ -96,7 +96,7 @@ class Channels {
 class McapFormat final : public RecordFormat {
  public:
   [[nodiscard]] std::string name() const override { return "MCAP"; }
-  [[nodiscard]] std::uint64_t first_record() const override { return kMagic.size(); }
+  [[nodiscard]] std::uint64_t first_record() const override { return kMcapMagic.size(); }
 
   [[nodiscard]] Result<Record> read(BufferedStream& stream) override {
     const auto head = take_head(stream);
@@ -109,16 +109,16 @@ class McapFormat final : public RecordFormat {
  private:
   /// An error without message where a record was complete and made no sense.
   Result<Record> read_content(const Head& head, BufferedStream& stream) {
-    if (head.op == Op::kDataEnd || head.op == Op::kFooter) return Record(EndRecord{});
-    if (head.op == Op::kChunk) return read_chunk(head.size, stream);
-    if (head.op != Op::kMessage && head.op != Op::kSchema && head.op != Op::kChannel) {
+    if (head.op == McapOp::kDataEnd || head.op == McapOp::kFooter) return Record(EndRecord{});
+    if (head.op == McapOp::kChunk) return read_chunk(head.size, stream);
+    if (head.op != McapOp::kMessage && head.op != McapOp::kSchema && head.op != McapOp::kChannel) {
       if (!stream.skip(head.size)) return Error{stream.problem()};
       return Record(OtherRecord{});
     }
     const auto content = stream.take(head.size);
     if (!content) return Error{stream.problem()};
-    if (head.op == Op::kMessage) return read_message(*content);
-    if (head.op == Op::kChannel) {
+    if (head.op == McapOp::kMessage) return read_message(*content);
+    if (head.op == McapOp::kChannel) {
       auto channel = channels_.read_channel(*content);
       return channel ? Result<Record>(*std::move(channel)) : Error{};
     }
@@ -190,10 +190,11 @@ bool take_chunk_index(std::string_view content, Index& index) {
 
 /// Where the summary begins; 0 without one.
 std::uint64_t summary_position(const InputFile& file) {
-  std::string tail(kFooterSize + kMagic.size(), '\0');
+  std::string tail(kFooterSize + kMcapMagic.size(), '\0');
   if (file.size() < tail.size()) return 0;
   const auto count = file.read(file.size() - tail.size(), tail);
-  if (!count || *count != tail.size() || !tail.ends_with(kMagic) || static_cast<Op>(tail[0]) != Op::kFooter)
+  if (!count || *count != tail.size() || !tail.ends_with(kMcapMagic) ||
+      static_cast<McapOp>(tail[0]) != McapOp::kFooter)
     return 0;
   return load<std::uint64_t>(tail.data() + kHeadSize);
 }
@@ -212,11 +213,11 @@ std::optional<Index> read_index(const std::shared_ptr<const InputFile>& file) {
     const auto content = stream.take(head->size);
     if (!content) return std::nullopt;
     bool ok = true;
-    if (head->op == Op::kFooter) break;
-    if (head->op == Op::kSchema) ok = channels.add_schema(*content);
-    if (head->op == Op::kChunkIndex) ok = take_chunk_index(*content, index);
-    if (head->op == Op::kStatistics) ok = has_statistics = take_statistics(*content, index);
-    if (head->op == Op::kChannel) {
+    if (head->op == McapOp::kFooter) break;
+    if (head->op == McapOp::kSchema) ok = channels.add_schema(*content);
+    if (head->op == McapOp::kChunkIndex) ok = take_chunk_index(*content, index);
+    if (head->op == McapOp::kStatistics) ok = has_statistics = take_statistics(*content, index);
+    if (head->op == McapOp::kChannel) {
       auto channel = channels.read_channel(*content);
       ok = channel.has_value();
       if (ok) index.topics.push_back(*std::move(channel));
@@ -234,16 +235,16 @@ std::optional<Index> read_index(const std::shared_ptr<const InputFile>& file) {
 
 }  // namespace
 
-bool is_mcap(std::string_view first_bytes) { return first_bytes.starts_with(kAnyVersion); }
+bool is_mcap(std::string_view first_bytes) { return first_bytes.starts_with(kAnyMcap); }
 
 Result<std::unique_ptr<Reader>> open_mcap(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  const auto magic = (*file)->front(kMagic.size());
+  const auto magic = (*file)->front(kMcapMagic.size());
   if (!magic) return Error{path.string() + ": " + magic.error().message};
-  if (*magic != kMagic)
+  if (*magic != kMcapMagic)
     return Error{fmt::format("{}: an MCAP file of version {}; this program reads version 0", path.string(),
-                             magic->substr(kAnyVersion.size(), 1))};
+                             magic->substr(kAnyMcap.size(), 1))};
   auto index = read_index(*file);
   return std::unique_ptr<Reader>(std::make_unique<ChunkedBag>(
       path.filename().string(), *std::move(file), std::make_unique<McapFormat>(), std::move(index)));

@@ -11,11 +11,11 @@
 namespace waymark::bag {
 namespace {
 
-constexpr std::string_view kAnyVersion = "#ROSBAG V";
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::string_view kAnyRosBag = "#ROSBAG V";
+constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
 
 /// What a record is, by its field `op`.
-enum class Op : std::uint8_t {
+enum class Ros1Op : std::uint8_t {
   kMessage = 0x02,
   kBag = 0x03,
   kIndex = 0x04,
@@ -50,7 +50,7 @@ class Fields {
     return Stamp{std::chrono::seconds(load<std::uint32_t>(raw.data())) +
                  Duration(load<std::uint32_t>(raw.data() + 4))};
   }
-  [[nodiscard]] Op op() const { return static_cast<Op>(number<std::uint8_t>("op").value_or(0)); }
+  [[nodiscard]] Ros1Op op() const { return static_cast<Ros1Op>(number<std::uint8_t>("op").value_or(0)); }
 
  private:
   std::string_view bytes_;
@@ -88,21 +88,21 @@ Result<Record> read_message(const Fields& fields, BufferedStream& stream) {
 class Ros1Format final : public RecordFormat {
  public:
   [[nodiscard]] std::string name() const override { return "ROS 1 bag"; }
-  [[nodiscard]] std::uint64_t first_record() const override { return kMagic.size(); }
+  [[nodiscard]] std::uint64_t first_record() const override { return kRos1Magic.size(); }
 
   [[nodiscard]] Result<Record> read(BufferedStream& stream) override {
     const auto head = take_counted(stream);
     if (!head) return head.error();
     const Fields fields(*head);
     switch (fields.op()) {
-      case Op::kMessage:
+      case Ros1Op::kMessage:
         return read_message(fields, stream);
-      case Op::kConnection: {
+      case Ros1Op::kConnection: {
         const auto id = fields.number<std::uint32_t>("conn");
         if (!id) return no_record("a connection without number");
         return read_connection(*id, std::string(fields.text("topic")), stream);
       }
-      case Op::kChunk: {
+      case Ros1Op::kChunk: {
         ChunkRecord chunk{std::string(fields.text("compression")), 0,
                           fields.number<std::uint32_t>("size").value_or(0), std::nullopt};
         const auto size = stream.take(4);
@@ -110,9 +110,9 @@ class Ros1Format final : public RecordFormat {
         chunk.packed_size = load<std::uint32_t>(size->data());
         return Record(std::move(chunk));
       }
-      case Op::kBag:
-      case Op::kIndex:
-      case Op::kChunkInfo: {
+      case Ros1Op::kBag:
+      case Ros1Op::kIndex:
+      case Ros1Op::kChunkInfo: {
         const auto size = stream.take(4);
         if (!size || !stream.skip(load<std::uint32_t>(size->data()))) return Error{stream.problem()};
         return Record(OtherRecord{});
@@ -132,11 +132,11 @@ struct BagHead {
 
 std::optional<BagHead> read_head(const std::shared_ptr<const InputFile>& file) {
   BufferedStream stream(4096);
-  stream.reset(std::make_unique<FileSection>(file, kMagic.size(), file->size()));
+  stream.reset(std::make_unique<FileSection>(file, kRos1Magic.size(), file->size()));
   const auto head = take_counted(stream);
   if (!head) return std::nullopt;
   const Fields fields(*head);
-  if (fields.op() != Op::kBag) return std::nullopt;
+  if (fields.op() != Ros1Op::kBag) return std::nullopt;
   return BagHead{fields.number<std::uint64_t>("index_pos").value_or(0),
                  fields.number<std::uint32_t>("conn_count").value_or(0),
                  fields.number<std::uint32_t>("chunk_count").value_or(0),
@@ -177,11 +177,11 @@ std::optional<Index> read_index(const std::shared_ptr<const InputFile>& file, co
     if (!raw) return std::nullopt;
     const std::string fields_bytes(*raw);
     const Fields fields(fields_bytes);
-    if (const auto id = fields.number<std::uint32_t>("conn"); id && fields.op() == Op::kConnection) {
+    if (const auto id = fields.number<std::uint32_t>("conn"); id && fields.op() == Ros1Op::kConnection) {
       auto record = read_connection(*id, fields.text("topic"), stream);
       if (!record) return std::nullopt;
       index.topics.push_back(std::get<TopicRecord>(*std::move(record)));
-    } else if (fields.op() == Op::kChunkInfo) {
+    } else if (fields.op() == Ros1Op::kChunkInfo) {
       const auto data = take_counted(stream);
       if (!data || !add_chunk_info(fields, *data, counts, index)) return std::nullopt;
     } else {
@@ -195,17 +195,17 @@ std::optional<Index> read_index(const std::shared_ptr<const InputFile>& file, co
 
 }  // namespace
 
-bool is_ros1_bag(std::string_view first_bytes) { return first_bytes.starts_with(kAnyVersion); }
+bool is_ros1_bag(std::string_view first_bytes) { return first_bytes.starts_with(kAnyRosBag); }
 
 Result<std::unique_ptr<Reader>> open_ros1_bag(const std::filesystem::path& path) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
-  const auto magic = (*file)->front(kMagic.size());
+  const auto magic = (*file)->front(kRos1Magic.size());
   if (!magic) return Error{path.string() + ": " + magic.error().message};
-  if (*magic != kMagic)
+  if (*magic != kRos1Magic)
     return Error{
         fmt::format("{}: a ROS bag of version {}; this program reads 2.0 (`rosbag migrate` converts)",
-                    path.string(), magic->substr(kAnyVersion.size(), 3))};
+                    path.string(), magic->substr(kAnyRosBag.size(), 3))};
   const auto head = read_head(*file);
   if (!head)
     return Error{fmt::format("{}: an empty or damaged ROS bag: its first record is missing", path.string())};

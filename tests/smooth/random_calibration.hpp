@@ -1,0 +1,15 @@
+#pragma once
+
+#include "waymark/core/calibration.hpp"
+#include "waymark/core/random.hpp"
+
+namespace waymark::test {
+
+/// Every key off by up to a tenth.
+inline Calibration random_calibration(RandomStream& random) {
+  Calibration c;
+  for (auto& entry : c) entry = random.uniform(-0.1, 0.1);
+  return c;
+}
+
+}  // namespace waymark::test
