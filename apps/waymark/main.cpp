@@ -1,7 +1,11 @@
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "waymark/kernels/instruction_set.hpp"
 
 #include "commands.hpp"
 
@@ -21,6 +25,15 @@ constexpr const char* kFooter =
 int report(const Error& error) {
   fmt::print(stderr, "waymark: {}\n", error.message);
   return error.kind == Error::Kind::kBadInput ? 2 : 1;
+}
+
+/// The instruction set that WAYMARK_INSTRUCTION_SET asks for, instead of the best of this processor.
+Result<void> choose_instruction_set() {
+  const char* name = std::getenv("WAYMARK_INSTRUCTION_SET");
+  if (name == nullptr || kernels::use_instruction_set(name)) return {};
+  return Error{
+      fmt::format("WAYMARK_INSTRUCTION_SET: '{}' is not known or not what this processor has, which is {}",
+                  name, fmt::join(kernels::instruction_sets(), ", "))};
 }
 
 }  // namespace
@@ -62,6 +75,7 @@ void remember_command_line(int argc, char** argv) {
 const std::string& command_line() { return remembered_command_line; }
 
 int run_program(int argc, char** argv) {
+  if (const auto chosen = choose_instruction_set(); !chosen) return report(chosen.error());
   CLI::App app{"Waymark: real-time landmark SLAM for wheeled robots", "waymark"};
   app.set_version_flag("--version", "waymark " WAYMARK_VERSION);
   app.require_subcommand(1);

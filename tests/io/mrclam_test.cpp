@@ -97,11 +97,47 @@ TEST(Mrclam, OdometryThatGoesBackInTimeIsSkippedAndCounted) {
   EXPECT_THAT(log->notes(), Contains("rows of Robot1_Odometry.dat that repeat the stamp before them: 1"));
 }
 
-TEST(Mrclam, RoundedTruthIsIgnoredWithANote) {
+/// A byte-order mark, a header and whole seconds, as in the spreadsheet export of dataset 1.
+constexpr const char* kRounded =
+    "\xEF\xBB\xBF# Time [s],x [m],y [m],,\n8,9,9,9\r\n9,1,2,-3\r\n9,2,3,-2\r\n10,9,9,9\r\n";
+
+TEST(Mrclam, RoundedTruthIsSpreadOverItsSeconds) {
   const TempFolder folder;
   write_dataset(folder);
-  folder.write("Robot3_Groundtruth_rounded.csv", "Time,X\n");
-  EXPECT_THAT(open_robot(folder, 3)->notes(), Contains(HasSubstr("Robot3_Groundtruth_rounded.csv")));
+  folder.write("Robot3_Groundtruth_rounded.csv", kRounded);
+  const auto log = open_robot(folder, 3);
+  const auto truth = only<Truth>(test::read_all(*log).events);
+  ASSERT_EQ(truth.size(), 2U);
+  EXPECT_EQ(truth[0].first, parse_stamp("8.5"));
+  EXPECT_EQ(truth[0].second.theta_rad, -3.0);
+  EXPECT_EQ(truth[1].first, parse_stamp("9"));
+  EXPECT_EQ(truth[1].second.x_m, 2.0);
+  EXPECT_THAT(
+      log->notes(),
+      Contains(HasSubstr("Robot3_Groundtruth_rounded.csv: stamps rounded to whole seconds were rebuilt")));
+}
+
+TEST(Mrclam, PublishedTruthWinsOverRounded) {
+  const TempFolder folder;
+  write_dataset(folder);
+  folder.write("Robot1_Groundtruth_rounded.csv", kRounded);
+  const auto log = open_robot(folder);
+  const auto truth = only<Truth>(test::read_all(*log).events);
+  ASSERT_EQ(truth.size(), 2U);
+  EXPECT_EQ(truth[0].first, parse_stamp("9"));
+  EXPECT_EQ(truth[0].second.theta_rad, 3.0);
+  EXPECT_THAT(log->notes(), testing::Not(Contains(HasSubstr("rounded"))));
+}
+
+TEST(Mrclam, BadRoundedTruthIsAnErrorWithFileAndLine) {
+  const TempFolder folder;
+  write_dataset(folder);
+  folder.write("Robot3_Groundtruth_rounded.csv", "8,1,1,1\n9,1,1,1\n9,1,,1\n10,1,1,1\n");
+  EXPECT_THAT(test::read_all(*open_robot(folder, 3)).error,
+              HasSubstr("Robot3_Groundtruth_rounded.csv:3: expected 4 columns"));
+  folder.write("Robot3_Groundtruth_rounded.csv", "8,1,1,1\ntime,x,y\n");
+  EXPECT_THAT(open_mrclam(folder.path(), {.robot = 3}).error().message,
+              HasSubstr("Robot3_Groundtruth_rounded.csv:2: 'time' is not a whole number"));
 }
 
 TEST(Mrclam, LandmarksOfDataset1ArePutRightUnlessToldNotTo) {
@@ -139,6 +175,7 @@ struct Recorded {
   std::size_t landmark_sightings;
   int robot_sightings;
   std::vector<std::string> further_notes;
+  std::size_t truth_rows = 0;  // 0: not counted
 };
 
 void PrintTo(const Recorded& recorded, std::ostream* out) {
@@ -161,6 +198,7 @@ TEST_P(MrclamRecording, HoldsTheKnownCounts) {
   EXPECT_EQ(only<Velocity>(delivered.events).size() + static_cast<std::size_t>(back), known.odometry_rows);
   EXPECT_EQ(test::count_observations(delivered.events), known.landmark_sightings);
   EXPECT_THAT(notes, Contains("sightings skipped of other robots: " + std::to_string(known.robot_sightings)));
+  if (known.truth_rows > 0) EXPECT_EQ(only<Truth>(delivered.events).size(), known.truth_rows);
   for (const auto& note : known.further_notes) EXPECT_THAT(notes, Contains(note));
 }
 
@@ -184,7 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Recorded{"mrclam6", 2, 65005, 3239, 792, {repeated(2, 1)}},
                     Recorded{"mrclam6", 3, 61158, 4348, 1277, {unknown_barcode(34, 2), repeated(3, 8)}},
                     Recorded{"mrclam6", 4, 52916, 2023, 373, {unknown_barcode(50, 3), repeated(4, 10)}},
-                    Recorded{"mrclam1", 3, 97351, 6771, 1969, {unknown_barcode(43, 2), repeated(3, 22)}},
+                    Recorded{
+                        "mrclam1", 3, 97351, 6771, 1969, {unknown_barcode(43, 2), repeated(3, 22)}, 89057},
                     Recorded{"mrclam9", 1, 17676, 8697, 1495, {unknown_barcode(52, 1), first_row_late(1)}},
                     Recorded{"mrclam9", 2, 17490, 8130, 969, {first_row_late(2)}},
                     Recorded{"mrclam9", 3, 17548, 7651, 1602, {first_row_late(3)}},

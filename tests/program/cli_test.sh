@@ -50,6 +50,10 @@ refuses 2 'nowhere.yaml' run sim:square -o o --config nowhere.yaml
 printf 'ekf:\n  capacity: -3\n' >bad.yaml
 refuses 2 'bad.yaml:2' config --validate bad.yaml
 
+# Instruction sets that there are not.
+WAYMARK_INSTRUCTION_SET=avx9 refuses 2 "WAYMARK_INSTRUCTION_SET: 'avx9'" --version
+WAYMARK_INSTRUCTION_SET='' refuses 2 "WAYMARK_INSTRUCTION_SET: ''" --version
+
 # Inputs that are no logs.
 refuses 2 'nowhere' run nowhere -o o
 mkdir empty

@@ -13,6 +13,7 @@
 #include "waymark/io/files.hpp"
 #include "waymark/io/known_settings.hpp"
 #include "waymark/io/merged_log.hpp"
+#include "waymark/io/rounded_stamps.hpp"
 #include "waymark/io/text_lines.hpp"
 
 namespace waymark {
@@ -109,29 +110,52 @@ EventStream::ReadRow read_sighting(Subjects subjects) {
   };
 }
 
-Result<void> add_stream(const fs::path& file, std::string columns, EventStream::ReadRow read_row,
+Result<void> add_stream(Result<TextLines> lines, std::string columns, EventStream::ReadRow read_row,
                         std::vector<EventStream>& streams) {
-  auto table = TextTable::open(file, {std::move(columns), kBlank, ""});
+  if (!lines) return lines.error();
+  auto table = TextTable::from(*std::move(lines), {std::move(columns), kBlank, ""});
   if (!table) return table.error();
   streams.emplace_back(*std::move(table), std::move(read_row), EventStream::BackInTime::kSkip);
   return {};
+}
+
+fs::path published_truth(const fs::path& folder, int robot) {
+  return robot_file(folder, robot, "Groundtruth.dat");
+}
+
+fs::path rounded_truth(const fs::path& folder, int robot) {
+  return robot_file(folder, robot, "Groundtruth_rounded.csv");
+}
+
+/// Is the path here only with its stamps rounded to whole seconds?
+bool is_truth_rounded(const fs::path& folder, int robot) {
+  return !fs::exists(published_truth(folder, robot)) && fs::exists(rounded_truth(folder, robot));
+}
+
+Result<TextLines> truth_lines(const fs::path& folder, int robot) {
+  if (!is_truth_rounded(folder, robot)) return TextLines::open(published_truth(folder, robot));
+  auto lines = TextLines::open(rounded_truth(folder, robot));
+  if (!lines) return lines;
+  return spread_rounded_stamps(*std::move(lines));
+}
+
+Result<void> add_truth(const fs::path& folder, int robot, std::vector<EventStream>& streams) {
+  if (!fs::exists(published_truth(folder, robot)) && !is_truth_rounded(folder, robot)) return {};
+  return add_stream(truth_lines(folder, robot), "stamp_s,x_m,y_m,theta_rad", read_truth, streams);
 }
 
 Result<std::vector<EventStream>> open_streams(const fs::path& folder, int robot) {
   auto subjects = read_barcodes(folder / "Barcodes.dat");
   if (!subjects) return subjects.error();
   std::vector<EventStream> streams;
-  if (auto done = add_stream(robot_file(folder, robot, "Odometry.dat"), "stamp_s,v_mps,w_radps",
-                             read_velocity, streams);
+  if (auto done = add_stream(TextLines::open(robot_file(folder, robot, "Odometry.dat")),
+                             "stamp_s,v_mps,w_radps", read_velocity, streams);
       !done)
     return done.error();
-  const fs::path truth = robot_file(folder, robot, "Groundtruth.dat");
-  if (fs::exists(truth))
-    if (auto done = add_stream(truth, "stamp_s,x_m,y_m,theta_rad", read_truth, streams); !done)
-      return done.error();
+  if (auto done = add_truth(folder, robot, streams); !done) return done.error();
   if (auto done =
-          add_stream(robot_file(folder, robot, "Measurement.dat"), "stamp_s,barcode,range_m,bearing_rad",
-                     read_sighting(*std::move(subjects)), streams);
+          add_stream(TextLines::open(robot_file(folder, robot, "Measurement.dat")),
+                     "stamp_s,barcode,range_m,bearing_rad", read_sighting(*std::move(subjects)), streams);
       !done)
     return done.error();
   return streams;
@@ -150,6 +174,20 @@ Result<LogInfo> read_info(const fs::path& folder, int robot) {
   return info;
 }
 
+/// Puts right what is known to be wrong; a note for each.
+std::vector<std::string> put_right(const fs::path& folder, const MrclamOptions& options, LogInfo& info) {
+  std::vector<std::string> notes;
+  if (options.fix_known_errors && fix_dataset_1(info.landmarks))
+    notes.emplace_back(
+        "landmarks 11 and 17, published exchanged in dataset 1, were put right (input.fix_known_errors)");
+  if (is_truth_rounded(folder, options.robot))
+    notes.push_back(
+        base_name(rounded_truth(folder, options.robot)) +
+        ": stamps rounded to whole seconds were rebuilt, the rows of a second spread evenly over it; "
+        "the first and last second are left out");
+  return notes;
+}
+
 }  // namespace
 
 bool is_mrclam(const fs::path& folder) {
@@ -165,13 +203,7 @@ Result<std::unique_ptr<Source>> open_mrclam(const fs::path& folder, const Mrclam
   auto streams = open_streams(folder, options.robot);
   if (!streams) return streams.error();
 
-  std::vector<std::string> notes;
-  if (options.fix_known_errors && fix_dataset_1(info->landmarks))
-    notes.emplace_back(
-        "landmarks 11 and 17, published exchanged in dataset 1, were put right (input.fix_known_errors)");
-  if (fs::exists(robot_file(folder, options.robot, "Groundtruth_rounded.csv")))
-    notes.push_back(fmt::format(
-        "Robot{}_Groundtruth_rounded.csv is not of the published format and was ignored", options.robot));
+  auto notes = put_right(folder, options, *info);
   return std::unique_ptr<Source>(
       std::make_unique<MergedLog>(*std::move(info), *std::move(streams), std::move(notes)));
 }

@@ -27,8 +27,6 @@ MultiplyAdds run(std::size_t rounds) {
           hn::GetLane(hn::SumOfLanes(tag, sum))};
 }
 
-const char* name() { return hwy::TargetName(HWY_TARGET); }
-
 }  // namespace waymark::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -36,9 +34,6 @@ HWY_AFTER_NAMESPACE();
 namespace waymark::kernels {
 
 HWY_EXPORT(run);
-HWY_EXPORT(name);
-
-const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(name)(); }
 
 MultiplyAdds multiply_add(std::size_t rounds) { return HWY_DYNAMIC_DISPATCH(run)(rounds); }
 

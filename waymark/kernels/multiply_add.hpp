@@ -4,9 +4,6 @@
 
 namespace waymark::kernels {
 
-/// The instruction set that the kernels use on this machine, as Highway calls it.
-[[nodiscard]] const char* instruction_set();
-
 /// `rounds` rounds of independent multiply-adds on vectors of double, all in registers: what a processor can
 /// do at most.
 struct MultiplyAdds {

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "waymark/core/function_blocks.hpp"
+#include "waymark/kernels/instruction_set.hpp"
 #include "waymark/kernels/multiply_add.hpp"
 
 namespace waymark::app {
