@@ -57,8 +57,9 @@ struct Contents {
 };
 
 const char* name_of(const EventContent& content) {
-  static constexpr std::array kNames{"wheel angles", "velocity",       "steering",     "odometry poses",
-                                     "images",       "marker corners", "observations", "ground truth"};
+  static constexpr std::array kNames{"wheel angles",   "velocity",     "steering",
+                                     "odometry poses", "yaw rates",    "images",
+                                     "marker corners", "observations", "ground truth"};
   static_assert(kNames.size() == std::variant_size_v<EventContent>);
   return kNames[content.index()];
 }
@@ -102,7 +103,7 @@ Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
       break;
     }
     if (!*event) break;
-    const auto& [stamp, content] = **event;
+    const auto& [stamp, stream, content] = **event;
     contents.streams[name_of(content)].see(stamp);
     if (const auto* observations = std::get_if<Observations>(&content))
       look_at(*observations, stamp, T_robot_sensor, contents);

@@ -57,6 +57,13 @@ TEST(LogFolder, ReadsEveryKindOfOdometry) {
   EXPECT_EQ(poses[0].second.T_odom_robot, (Pose2{2.0, 3.0, 4.0}));
 }
 
+TEST(LogFolder, ReadsAGyroBesideTheOdometry) {
+  const auto rates = only<YawRate>(read_with("imu.csv", "stamp_s,w_radps\n1,0.25\n").events);
+  ASSERT_EQ(rates.size(), 1U);
+  EXPECT_EQ(rates[0].first, Stamp{std::chrono::seconds(1)});
+  EXPECT_EQ(rates[0].second.w_radps, 0.25);
+}
+
 TEST(LogFolder, EmptyCellsDecideWhatWasMeasured) {
   const auto seen = read_observations("1,7,2.5,0.5\n1,,2.5,\n1,8,,0.25\n");
   ASSERT_EQ(seen.size(), 3U);

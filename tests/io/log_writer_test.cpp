@@ -27,6 +27,7 @@ static bool operator==(const Steering& a, const Steering& b) {
 static bool operator==(const OdometryPose& a, const OdometryPose& b) {
   return a.T_odom_robot == b.T_odom_robot;
 }
+static bool operator==(const YawRate& a, const YawRate& b) { return a.w_radps == b.w_radps; }
 static bool operator==(const Image& a, const Image& b) {
   const bool same_pixels = a.pixels == b.pixels || (a.pixels && b.pixels && *a.pixels == *b.pixels);
   return same_pixels && (a.file == b.file || a.pixels);
@@ -87,6 +88,7 @@ std::vector<Event> awkward_events() {
       add(OdometryPose{{random.normal(), random.normal() * 1e-300, random.normal() * 1e200}});
     else
       add(Odometry{random.normal() * 1e-9, random.normal() / 3.0});
+    add(YawRate{random.normal()});
     add(Truth{random.normal(), random.normal(), i % 2 == 0 ? std::optional(0.1) : std::nullopt});
     add(Observations{{id, RangeBearing{random.uniform(), random.normal()}, std::nullopt},
                      {std::nullopt, Range{random.uniform()}, std::nullopt},

@@ -198,7 +198,9 @@ TEST_P(MrclamRecording, HoldsTheKnownCounts) {
   EXPECT_EQ(only<Velocity>(delivered.events).size() + static_cast<std::size_t>(back), known.odometry_rows);
   EXPECT_EQ(test::count_observations(delivered.events), known.landmark_sightings);
   EXPECT_THAT(notes, Contains("sightings skipped of other robots: " + std::to_string(known.robot_sightings)));
-  if (known.truth_rows > 0) EXPECT_EQ(only<Truth>(delivered.events).size(), known.truth_rows);
+  if (known.truth_rows > 0) {
+    EXPECT_EQ(only<Truth>(delivered.events).size(), known.truth_rows);
+  }
   for (const auto& note : known.further_notes) EXPECT_THAT(notes, Contains(note));
 }
 

@@ -7,12 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/stamps.hpp"
 #include "waymark/core/function_blocks.hpp"
 
 namespace waymark {
 namespace {
 
-Stamp at_s(double seconds) { return stamp_from_seconds(seconds); }
+using test::at;
 
 /// Notes what the pipeline asks of a filter.
 class Recorder final : public Filter {
@@ -58,9 +59,9 @@ Observation sighting(int number, Measurement value = RangeBearing{2.0, 0.5}) {
 }
 
 Event seen(double seconds, std::vector<Observation> observations) {
-  return {at_s(seconds), Observations(std::move(observations))};
+  return {at(seconds), Observations(std::move(observations))};
 }
-Event speed(double seconds, double v_mps) { return {at_s(seconds), Velocity{v_mps, 0.0}}; }
+Event speed(double seconds, double v_mps) { return {at(seconds), Velocity{v_mps, 0.0}}; }
 
 TEST(Pipeline, PutsLateEventsInTheirPlace) {
   Fixture f;
@@ -89,7 +90,7 @@ TEST(Pipeline, MovesToTheMomentOfTheSightingNotOfItsStamp) {
   sensor.delay_s = 0.2;
   Fixture f({}, sensor);
   f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
-  EXPECT_NEAR(f.filter.poses.at_s(0).x_m, 0.3, 1e-9);
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }
 
 TEST(Pipeline, MovesWhenTheRobotFollowsItsCommand) {
@@ -97,7 +98,7 @@ TEST(Pipeline, MovesWhenTheRobotFollowsItsCommand) {
   odometry.response_s = 0.2;
   Fixture f({}, {}, Observe::kRangeBearing, odometry);
   f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
-  EXPECT_NEAR(f.filter.poses.at_s(0).x_m, 0.3, 1e-9);
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }
 
 TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
@@ -109,7 +110,7 @@ TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
   Observation own = sighting(2);
   own.covariance = Eigen::Matrix2d::Identity();
   f.push({seen(0.0, {sighting(1), own})});
-  const auto& batch = f.filter.batches.at_s(0);
+  const auto& batch = f.filter.batches.at(0);
   EXPECT_NEAR((*batch[0].covariance)(0, 0), 0.2 * 0.2, 1e-12);
   EXPECT_NEAR((*batch[0].covariance)(1, 1), to_radians(2.0) * to_radians(2.0), 1e-12);
   EXPECT_EQ(*batch[1].covariance, Eigen::Matrix2d::Identity());
@@ -121,7 +122,7 @@ TEST(Pipeline, LeavesPixelsAsTheyCome) {
   own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
   f.push(
       {seen(0.0, {sighting(1, Pixel{1.0, 2.0}), own, sighting(3, Pixel{std::nan(""), 1.0}), sighting(4)})});
-  const auto& batch = f.filter.batches.at_s(0);
+  const auto& batch = f.filter.batches.at(0);
   ASSERT_EQ(batch.size(), 2U);
   EXPECT_FALSE(batch[0].covariance.has_value());
   EXPECT_EQ(*batch[1].covariance, *own.covariance);
@@ -134,7 +135,7 @@ TEST(Pipeline, UsesThePartThatIsAskedFor) {
   Observation own = sighting(2);
   own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
   f.push({seen(0.0, {own, sighting(1, Range{3.0})})});
-  ASSERT_EQ(f.filter.batches.at_s(0).size(), 1U);
+  ASSERT_EQ(f.filter.batches.at(0).size(), 1U);
   const auto& used = f.filter.batches[0][0];
   EXPECT_EQ(std::get<Bearing>(used.value).bearing_rad, 0.5);
   EXPECT_EQ(*used.covariance, (Eigen::Matrix2d{{4.0, 0.0}, {0.0, 0.0}}));
@@ -159,15 +160,85 @@ TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {
   f.push(
       {seen(0.0, {sighting(1, RangeBearing{6.0, 0.0}), sighting(1, RangeBearing{-1.0, 0.0}),
                   sighting(1, RangeBearing{nan, 0.0}), sighting(1, RangeBearing{1.0, nan}), sighting(1)})});
-  EXPECT_EQ(f.filter.batches.at_s(0).size(), 1U);
+  EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
   EXPECT_EQ(f.pipeline.counts().unusable, 4);
 }
 
 TEST(Pipeline, CarriesOnOverAGapInTheOdometry) {
   Fixture f({.max_hold_s = 1.0});
   f.push({speed(0.0, 1.0), speed(30.0, 1.0), seen(31.0, {sighting(1)})});
-  EXPECT_NEAR(f.filter.poses.at_s(0).x_m, 2.0, 1e-9);
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 2.0, 1e-9);
   EXPECT_EQ(f.pipeline.counts().odometry_gaps, 1);
+}
+
+constexpr StreamId kWheelDevice{0, 1};
+constexpr StreamId kCameraDevice{0, 2};
+
+Event of(StreamId stream, Event event) {
+  event.stream = stream;
+  return event;
+}
+
+TEST(Pipeline, ProcessesLiveEventsAsSoonAsEveryStreamHasToldOfThem) {
+  LandmarkSensor sensor;
+  sensor.delay_s = 0.2;
+  Fixture f({}, sensor);
+  Pipeline& pipeline = f.pipeline;
+  pipeline.horizon().expect(kCameraDevice, Duration{0});
+  pipeline.hold(of(kWheelDevice, speed(0.0, 1.0)));
+  EXPECT_EQ(pipeline.horizon().stamp(), std::nullopt);
+  pipeline.hold(of(kWheelDevice, speed(1.0, 0.0)));
+  pipeline.hold(of(kCameraDevice, seen(0.8, {sighting(1)})));
+  pipeline.process_until(pipeline.horizon().stamp().value());
+  ASSERT_EQ(f.filter.poses.size(), 1U);
+  EXPECT_NEAR(f.filter.poses[0].x_m, 0.6, 1e-9);
+  EXPECT_EQ(f.stamps, (std::vector<Stamp>{at(0.0), at(0.6)}));
+}
+
+TEST(Pipeline, HeldEventsThatComeAfterTheirMomentAreLate) {
+  Fixture f;
+  f.pipeline.hold(speed(0.0, 1.0));
+  f.pipeline.hold(speed(1.0, 1.0));
+  f.pipeline.process_until(at(1.0));
+  f.pipeline.hold(seen(0.5, {sighting(1)}));
+  f.pipeline.finish();
+  EXPECT_TRUE(f.filter.batches.empty());
+  EXPECT_EQ(f.pipeline.counts().late, 1);
+}
+
+TEST(Pipeline, FollowsOneRobotAndCountsTheEventsOfOthers) {
+  Fixture f;
+  f.push({of({3, 0}, speed(0.0, 1.0)), of({4, 0}, speed(0.1, 9.0)), of({3, 0}, seen(0.5, {sighting(1)})),
+          of({3, 0}, speed(1.0, 1.0))});
+  EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.5, 1e-9);
+  EXPECT_EQ(f.pipeline.counts().other_robots, 1);
+}
+
+TEST(Pipeline, ARobotThatIsSeenIsNoLandmark) {
+  Fixture f;
+  Observation robot = sighting(2);
+  robot.id->family = LandmarkId::Family::kRobot;
+  f.push({seen(0.0, {sighting(1), robot})});
+  EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
+  EXPECT_EQ(f.pipeline.counts().robots_seen, 1);
+}
+
+TEST(Pipeline, TurnsByAGyroFromReadingToReading) {
+  Fixture f;
+  f.push({speed(0.0, 1.0),
+          {at(0.0), YawRate{0.0}},
+          {at(1.0), YawRate{0.2}},
+          speed(1.0, 0.0),
+          seen(1.0, {sighting(1)})});
+  EXPECT_NEAR(f.filter.poses.at(0).theta_rad, 0.1, 1e-12);
+}
+
+TEST(Pipeline, TheResponseToCommandsMovesNoGyro) {
+  OdometryOptions odometry;
+  odometry.response_s = 0.2;
+  Fixture f({}, {}, Observe::kRangeBearing, odometry);
+  f.push({speed(0.0, 1.0), {at(0.2), YawRate{0.5}}, seen(0.4, {sighting(1)}), speed(1.0, 1.0)});
+  EXPECT_NEAR(f.filter.poses.at(0).theta_rad, 0.1, 1e-12);
 }
 
 TEST(Pipeline, ReportsOneStepPerStamp) {
@@ -175,10 +246,10 @@ TEST(Pipeline, ReportsOneStepPerStamp) {
   f.push({speed(0.0, 1.0),
           speed(0.5, 1.0),
           seen(0.5, {sighting(1)}),
-          {at_s(0.7), Truth{}},
-          {at_s(0.8), Image{}},
+          {at(0.7), Truth{}},
+          {at(0.8), Image{}},
           speed(1.0, 0.0)});
-  EXPECT_EQ(f.stamps, (std::vector<Stamp>{at_s(0.0), at_s(0.5), at_s(1.0)}));
+  EXPECT_EQ(f.stamps, (std::vector<Stamp>{at(0.0), at(0.5), at(1.0)}));
 }
 
 }  // namespace

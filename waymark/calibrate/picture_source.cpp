@@ -55,7 +55,7 @@ class LogPictures final : public PictureSource {
       auto event = source_.next();
       if (!event) return event.error();
       if (!*event) return std::optional<Picture>{};
-      const auto& [stamp, content] = **event;
+      const auto& [stamp, stream, content] = **event;
       const auto* image = std::get_if<Image>(&content);
       if (image == nullptr || (last_ && to_seconds(stamp - *last_) < 1.0 / kFramesPerSecond)) continue;
       last_ = stamp;

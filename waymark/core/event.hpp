@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,6 +42,11 @@ struct OdometryPose {
   Pose2 T_odom_robot;
 };
 
+/// How fast the robot turns by its gyro, counter-clockwise from above.
+struct YawRate {
+  double w_radps = 0.0;
+};
+
 /// A picture: named by its file, to be loaded by who needs the pixels; or with its pixels where a simulator
 /// or a camera has them in memory; or with the bytes of its file (JPEG, PNG), as bags have them.
 struct Image {
@@ -67,12 +74,26 @@ struct Truth {
   std::optional<double> theta_rad;
 };
 
-using EventContent =
-    std::variant<WheelAngles, Velocity, Steering, OdometryPose, Image, MarkerOutlines, Observations, Truth>;
+using EventContent = std::variant<WheelAngles, Velocity, Steering, OdometryPose, YawRate, Image,
+                                  MarkerOutlines, Observations, Truth>;
+
+/// Who tells an event: which robot, and which of its devices. Logs of one robot with one device of each kind
+/// leave both at 0; sources with more number the devices of a robot over all kinds.
+struct StreamId {
+  std::uint16_t robot = 0;
+  std::uint16_t device = 0;
+
+  friend auto operator<=>(const StreamId&, const StreamId&) = default;
+};
 
 /// What a log is made of.
 struct Event {
+  /// Of the only robot, by its only device of the kind.
+  Event(Stamp when, EventContent what) : Event(when, StreamId{}, std::move(what)) {}
+  Event(Stamp when, StreamId who, EventContent what) : stamp(when), stream(who), content(std::move(what)) {}
+
   Stamp stamp;
+  StreamId stream;
   EventContent content;
 };
 

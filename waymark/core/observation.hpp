@@ -11,9 +11,10 @@
 
 namespace waymark {
 
-/// Who a landmark is: the family says what kind of name the number is.
+/// Who a landmark is: the family says what kind of name the number is. A robot that another robot sees is
+/// named as landmarks are, but never one: it moves.
 struct LandmarkId {
-  enum class Family : std::uint8_t { kNone, kMarker, kBarcode, kCorner };
+  enum class Family : std::uint8_t { kNone, kMarker, kBarcode, kCorner, kRobot };
 
   Family family = Family::kNone;
   std::int32_t number = -1;

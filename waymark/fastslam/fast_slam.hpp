@@ -52,8 +52,8 @@ struct FastSlamOptions {
 void describe(Schema& schema, FastSlamOptions& options);
 
 /// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over sightings of 2-D landmarks, with identities or
-/// without, by range and bearing, range alone or bearing alone. Motion is collected until something is seen, then
-/// every particle draws from it. docs/fastslam.md has the equations.
+/// without, by range and bearing, range alone or bearing alone. Motion is collected until something is seen,
+/// then every particle draws from it. docs/fastslam.md has the equations.
 ///
 /// Given a particle's path the pose of a first sighting is exactly known. So a landmark of which only the
 /// bearing is known is kept as direction and inverse distance from there, one of which only the range is

@@ -37,6 +37,8 @@ std::optional<EventContent> read_odometry_row(TextTable& row, Tally&) {
   return OdometryPose{{row.number(1), row.number(2), row.number(3)}};
 }
 
+std::optional<EventContent> read_yaw_rate_row(TextTable& row, Tally&) { return YawRate{row.number(1)}; }
+
 std::optional<EventContent> read_truth_row(TextTable& row, Tally&) {
   return Truth{row.number(1), row.number(2), row.is_empty(3) ? std::nullopt : std::optional(row.number(3))};
 }
@@ -308,10 +310,10 @@ Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
 
   // In the order that events of one stamp come in.
   const std::vector<std::pair<log_format::Table, EventStream::ReadRow>> tables{
-      {log_format::kWheels, read_wheels_row},         {log_format::kVelocity, read_velocity_row},
-      {log_format::kSteering, read_steering_row},     {log_format::kOdometry, read_odometry_row},
-      {log_format::kTruth, read_truth_row},           {log_format::kObservations, read_observation},
-      {log_format::kImages, read_image_below(folder)}};
+      {log_format::kWheels, read_wheels_row},        {log_format::kVelocity, read_velocity_row},
+      {log_format::kSteering, read_steering_row},    {log_format::kOdometry, read_odometry_row},
+      {log_format::kYawRate, read_yaw_rate_row},     {log_format::kTruth, read_truth_row},
+      {log_format::kObservations, read_observation}, {log_format::kImages, read_image_below(folder)}};
   std::vector<EventStream> streams;
   for (const auto& [format, read_row] : tables)
     if (auto done = open_stream(folder, format, read_row, streams); !done) return done.error();

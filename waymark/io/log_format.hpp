@@ -16,6 +16,8 @@ inline constexpr Table kWheels{"wheels.csv", "stamp_s,left_rad,right_rad"};
 inline constexpr Table kVelocity{"velocity.csv", "stamp_s,v_mps,w_radps"};
 inline constexpr Table kSteering{"steering.csv", "stamp_s,v_mps,steer_rad"};
 inline constexpr Table kOdometry{"odometry.csv", "stamp_s,x_m,y_m,theta_rad"};
+/// Of a gyro, beside the odometry.
+inline constexpr Table kYawRate{"imu.csv", "stamp_s,w_radps"};
 inline constexpr Table kTruth{"truth.csv", "stamp_s,x_m,y_m,theta_rad", "theta_rad"};
 /// A row without id and measurement says that the sensor looked and saw nothing.
 inline constexpr Table kObservations{"observations.csv", "stamp_s,id,range_m,bearing_rad,u_px,v_px",
@@ -25,7 +27,7 @@ inline constexpr Table kLandmarks{"landmarks.csv", "id,x_m,y_m,z_m", "z_m"};
 
 /// A log has at most one of these.
 inline constexpr std::array kOdometryTables{kWheels, kVelocity, kSteering, kOdometry};
-inline constexpr std::array kTables{kWheels, kVelocity,     kSteering, kOdometry,
+inline constexpr std::array kTables{kWheels, kVelocity,     kSteering, kOdometry, kYawRate,
                                     kTruth,  kObservations, kImages,   kLandmarks};
 
 inline constexpr std::string_view kInfoFile = "log.yaml";

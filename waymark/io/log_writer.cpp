@@ -150,6 +150,9 @@ class LogText {
     const Pose2& pose = odometry.T_odom_robot;
     return add_row(log_format::kOdometry, stamp, {pose.x_m, pose.y_m, pose.theta_rad});
   }
+  Result<void> add_content(Stamp stamp, const YawRate& rate) {
+    return add_row(log_format::kYawRate, stamp, {rate.w_radps});
+  }
   Result<void> add_content(Stamp stamp, const Truth& truth) {
     if (truth.theta_rad) return add_row(log_format::kTruth, stamp, {truth.x_m, truth.y_m, *truth.theta_rad});
     std::string& text = file(log_format::kTruth);

@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view kMapCsvColumns = "id,x_m,y_m,z_m,sxx,sxy,sxz,syy,syz,szz,observations";
 constexpr std::string_view kMapVersion = "1";
 constexpr std::string_view kMapEnd = "end";
-constexpr std::array<std::string_view, 4> kFamilies{"none", "marker", "barcode",
-                                                    "corner"};  // in order of the enum
+constexpr std::array<std::string_view, 5> kFamilies{"none", "marker", "barcode", "corner",
+                                                    "robot"};  // in order of the enum
 
 LandmarkEstimate read_landmark(TextTable& row) {
   LandmarkEstimate landmark;

@@ -121,6 +121,13 @@ Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model) {
   return {p.x(), p.y(), wrap_angle(after_rad)};
 }
 
+Motion turned_as_measured(const Motion& motion, double turn_rad, const OdometryOptions& options) {
+  Motion turned = motion;
+  turned.increment = turned_more(motion.increment, turn_rad - motion.increment.theta_rad, options.arc);
+  if (is_still(motion)) turned.covariance = slip_covariance({0.0, turn_rad}, options.noise, options.arc);
+  return turned;
+}
+
 ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels) {
   const double left_m = wheels.left_radius_m * increment.left_rad;
   const double right_m = wheels.right_radius_m * increment.right_rad;

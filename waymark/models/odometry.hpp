@@ -88,6 +88,11 @@ struct ArcStep {
 /// The same arc if it turned so much more.
 [[nodiscard]] Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model);
 
+/// The same way with the turn that a gyro measured. A robot that only turned slips as one does that turns on
+/// the spot; otherwise the covariance stays that of the odometry, whose turn is the less certain.
+[[nodiscard]] Motion turned_as_measured(const Motion& motion, double turn_rad,
+                                        const OdometryOptions& options);
+
 /// Encoder increments to distance and turn (Vincke et al. 2012, equation 5) and its Jacobian to (left, right)
 /// angles.
 [[nodiscard]] ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels);

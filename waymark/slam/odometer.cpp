@@ -38,6 +38,10 @@ bool is_odometry(const EventContent& content) {
          std::holds_alternative<Steering>(content) || std::holds_alternative<OdometryPose>(content);
 }
 
+bool tells_motion(const EventContent& content) {
+  return is_odometry(content) || std::holds_alternative<YawRate>(content);
+}
+
 template <class Value>
 void SampledTrack<Value>::add(Stamp stamp, const Value& value) {
   if (last_ && last_->first < stamp) before_last_ = last_;
@@ -55,13 +59,19 @@ std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp,
 }
 
 Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
-    : options_(options), turn_bias_(options.standing), max_hold_(duration_from_seconds(max_hold_s)) {}
+    : options_(options),
+      turn_bias_(options.standing),
+      max_hold_(duration_from_seconds(max_hold_s)),
+      yaw_rate_(max_hold_) {}
 
-Motion Odometer::advance(Stamp stamp, const Event* next) {
+Motion Odometer::advance(Stamp stamp, const Event* next, const Event* next_yaw_rate) {
   Motion motion;
   if (held_) motion = advance_held(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
+  if (track_ && gyro_)
+    if (const auto turn_rad = yaw_rate_.turn_rad(*now_, stamp, next_yaw_rate))
+      motion = turned_as_measured(motion, *turn_rad, options_);
   if (!is_still(motion)) {
     motion.duration_s = to_seconds(stamp - *now_);
     take_bias_out(motion.increment, motion.duration_s);
@@ -101,10 +111,17 @@ Motion Odometer::advance_pose(Stamp stamp, const Event* next) {
   return odometry_pose_motion(then, *pose_now_, options_);
 }
 
+bool Odometer::follows(const Event& event) const {
+  return track_of(event) == (std::holds_alternative<YawRate>(event.content) ? gyro_ : track_);
+}
+
 bool Odometer::add(const Event& event) {
-  if (!kind_) kind_ = event.content.index();
-  if (*kind_ != event.content.index()) return false;
+  const auto* yaw_rate = std::get_if<YawRate>(&event.content);
+  auto& followed = yaw_rate != nullptr ? gyro_ : track_;
+  if (!followed) followed = track_of(event);
+  if (!follows(event)) return false;
   now_ = event.stamp;
+  if (yaw_rate != nullptr) yaw_rate_.add(event.stamp, *yaw_rate);
   if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
     held_ = *velocity;
     held_since_ = event.stamp;

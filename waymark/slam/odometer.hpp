@@ -7,6 +7,7 @@
 #include "waymark/core/event.hpp"
 #include "waymark/models/odometry.hpp"
 #include "waymark/slam/turn_bias.hpp"
+#include "waymark/slam/yaw_rate_track.hpp"
 
 namespace waymark {
 
@@ -15,6 +16,8 @@ enum class OdometryKind { kWheels, kVelocity, kSteering, kPose };
 
 /// Any odometry that this program can turn into motion.
 [[nodiscard]] bool is_odometry(const EventContent& content);
+/// Odometry, or what a gyro adds to it.
+[[nodiscard]] bool tells_motion(const EventContent& content);
 
 /// Follows a quantity that is sampled (cumulative encoder angles, a dead-reckoned pose): its value at any
 /// stamp, by interpolation up to the next sample where that is known, else at the last rate for at most
@@ -31,19 +34,26 @@ class SampledTrack {
   std::optional<std::pair<Stamp, Value>> last_;
 };
 
-/// Turns whatever kind of odometry a log has into the motion between any two stamps. The first kind that
-/// appears counts; a log with two kinds would otherwise move twice. Learns, whenever the robot stands, how
-/// its odometry turns by itself, and takes that out.
+/// Turns whatever kind of odometry a log has into the motion between any two stamps. The first stream of
+/// odometry that appears counts; a log with two would otherwise move twice. Where a gyro tells the yaw rate,
+/// its integral is the heading instead of the odometry's. Learns, whenever the robot stands, how its heading
+/// turns by itself, and takes that out.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
 
   /// The motion from the stamp of the last call to `stamp` >= that one. `next` is the first odometry event
-  /// after `stamp`, if it has arrived.
-  [[nodiscard]] Motion advance(Stamp stamp, const Event* next);
+  /// that it follows after `stamp`, `next_yaw_rate` the first yaw rate, if they have arrived.
+  [[nodiscard]] Motion advance(Stamp stamp, const Event* next, const Event* next_yaw_rate = nullptr);
 
-  /// A reading at the stamp that advance() just reached. False: of another kind than the first one.
+  /// A reading at the stamp that advance() just reached. False: of another stream than it follows.
   bool add(const Event& event);
+
+  /// Whether an event is of the odometry, or the yaw rate, that it follows. Nothing is followed before the
+  /// first.
+  [[nodiscard]] bool follows(const Event& event) const;
+
+  [[nodiscard]] bool has_yaw_rate() const { return gyro_.has_value(); }
 
   /// Of the odometry so far, if there was any.
   [[nodiscard]] std::optional<OdometryKind> kind() const;
@@ -52,6 +62,15 @@ class Odometer {
   [[nodiscard]] int gaps() const { return gaps_; }
 
  private:
+  /// Which odometry it is: the alternative of EventContent, and who tells it.
+  struct Track {
+    std::size_t kind;
+    StreamId stream;
+
+    friend bool operator==(const Track&, const Track&) = default;
+  };
+
+  static Track track_of(const Event& event) { return {event.content.index(), event.stream}; }
   void take_bias_out(Pose2& increment, double dt_s);
   [[nodiscard]] Motion advance_held(Stamp stamp);
   [[nodiscard]] Motion advance_wheels(Stamp stamp, const Event* next);
@@ -60,12 +79,14 @@ class Odometer {
   OdometryOptions options_;
   TurnBias turn_bias_;
   Duration max_hold_;
-  std::optional<std::size_t> kind_;  // alternative of EventContent
+  std::optional<Track> track_;
+  std::optional<Track> gyro_;
   std::optional<Stamp> now_;
   int gaps_ = 0;
 
   std::optional<std::variant<Velocity, Steering>> held_;  // until the next one
   Stamp held_since_;
+  YawRateTrack yaw_rate_;
   SampledTrack<WheelAngles> wheel_track_;
   SampledTrack<Pose2> pose_track_;
   std::optional<WheelAngles> wheels_now_;

@@ -81,17 +81,43 @@ Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const Odometr
       response_(duration_from_seconds(odometry.response_s)) {}
 
 void Pipeline::push(Event event) {
-  const bool observed = is_observed(event.content);
-  if (!observed && !is_odometry(event.content)) return;
-  event.stamp = observed ? event.stamp - delay_ : event.stamp + response_;
+  if (!accept(event)) return;
+  insert(std::move(event));
+  while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
+}
+
+void Pipeline::hold(Event event) {
+  if (!accept(event)) return;
+  horizon_.advance(event.stream, event.stamp);
+  insert(std::move(event));
+}
+
+void Pipeline::process_until(Stamp stamp) {
+  while (!waiting_.empty() && waiting_.front().stamp <= stamp) process_front_group();
+}
+
+/// Stamps an event with the moment that it is of. False: it is not used.
+bool Pipeline::accept(Event& event) {
+  if (!is_observed(event.content) && !tells_motion(event.content)) return false;
+  if (event.stream.robot != robot_.value_or(event.stream.robot)) {
+    ++counts_.other_robots;
+    return false;
+  }
+  robot_ = event.stream.robot;
+  event.stamp = event.stamp + shift_of(event.content);
   ++counts_.events;
   if (processed_ && event.stamp < *processed_) {
     ++counts_.late;
-    return;
+    return false;
   }
   announce(event);
-  insert(std::move(event));
-  while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
+  return true;
+}
+
+/// A gyro measures the motion itself, which follows what odometry reports of commands.
+Duration Pipeline::shift_of(const EventContent& content) const {
+  if (is_observed(content)) return -delay_;
+  return is_odometry(content) ? response_ : Duration{0};
 }
 
 bool Pipeline::is_observed(const EventContent& content) const {
@@ -119,8 +145,17 @@ void Pipeline::insert(Event event) {
 }
 
 const Event* Pipeline::next_odometry() const {
-  const auto found =
-      std::ranges::find_if(waiting_, [](const Event& event) { return is_odometry(event.content); });
+  const auto found = std::ranges::find_if(waiting_, [this](const Event& event) {
+    return is_odometry(event.content) && odometer_.follows(event);
+  });
+  return found == waiting_.end() ? nullptr : &*found;
+}
+
+const Event* Pipeline::next_yaw_rate() const {
+  if (!odometer_.has_yaw_rate()) return nullptr;
+  const auto found = std::ranges::find_if(waiting_, [this](const Event& event) {
+    return std::holds_alternative<YawRate>(event.content) && odometer_.follows(event);
+  });
   return found == waiting_.end() ? nullptr : &*found;
 }
 
@@ -139,7 +174,7 @@ void Pipeline::process_front_group() {
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
     } else {
-      odometry_seen_ = true;
+      odometry_seen_ = odometry_seen_ || is_odometry(event.content);
       counts_.other_odometry += odometer_.add(event) ? 0 : 1;
     }
   }
@@ -184,7 +219,7 @@ void Pipeline::collect_markers(std::span<const Observation> sightings) {
 }
 
 void Pipeline::predict(Stamp stamp) {
-  motion_ = odometer_.advance(stamp, next_odometry());
+  motion_ = odometer_.advance(stamp, next_odometry(), next_yaw_rate());
   if (is_still(motion_)) return;
   dead_reckoning_ = dead_reckoning_ * motion_.increment;
   filter_.predict(motion_);
@@ -194,6 +229,10 @@ void Pipeline::collect(const Observations& observations) {
   for (const Observation& observation : observations) {
     ++counts_.observations;
     counts_.before_odometry += odometry_seen_ ? 0 : 1;
+    if (observation.id && observation.id->family == LandmarkId::Family::kRobot) {
+      ++counts_.robots_seen;
+      continue;
+    }
     const Measurement value = rectify(sensor_, observation.value);
     const auto used = part(value, observe_);
     if (!used) {

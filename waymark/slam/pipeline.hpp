@@ -12,6 +12,7 @@
 #include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/marker_front_end.hpp"
 #include "waymark/slam/odometer.hpp"
+#include "waymark/slam/release_horizon.hpp"
 
 namespace waymark {
 
@@ -61,7 +62,9 @@ struct PipelineCounts {
   std::int64_t late = 0;             ///< stamped before what was already processed
   std::int64_t unusable = 0;         ///< not finite or outside the sensor's limits
   std::int64_t wrong_kind = 0;       ///< lacks what --observe asks for
-  std::int64_t other_odometry = 0;   ///< of a second kind
+  std::int64_t other_odometry = 0;   ///< of a second kind or a second device
+  std::int64_t other_robots = 0;     ///< events of another robot than the first event's
+  std::int64_t robots_seen = 0;      ///< observations of other robots, which are no landmarks
   std::int64_t before_odometry = 0;  ///< observed before the first odometry: used, at the start pose
   std::int64_t pictures = 0;         ///< looked into
   std::int64_t outlines = 0;         ///< of these what another program looked into: corners of markers
@@ -71,11 +74,11 @@ struct PipelineCounts {
 };
 
 /// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
-/// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events may arrive
-/// late by up to the reordering window. Pictures go to the front end where there is one, which may begin with
-/// them as soon as they arrive; a picture that
-/// shows what cannot be, or nothing new, is passed over and the robot goes on by dead reckoning. Truth is not
-/// its business and is ignored.
+/// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events of a file
+/// are pushed and may arrive late by up to the reordering window; live ones are held, and processed until
+/// each stream's horizon, so that no pose waits longer than it must. Pictures go to the front end where there
+/// is one, which may begin with them as soon as they arrive; a picture that shows what cannot be, or nothing
+/// new, is passed over and the robot goes on by dead reckoning. Truth is not its business and is ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;
@@ -83,7 +86,17 @@ class Pipeline {
   Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
            const LandmarkSensor& sensor, Observe observe, Sink sink, const FrontEnds& front_ends = {});
 
+  /// Takes an event, and processes what is older than the newest by more than the reordering window.
   void push(Event event);
+
+  /// Takes an event and processes nothing: process_until() does.
+  void hold(Event event);
+  /// Processes what is stamped until then, that moment included. Stamps are those of the horizon.
+  void process_until(Stamp stamp);
+  /// What each stream has told, in the moments that its events are of: less the sensor's delay for what is
+  /// observed, and later by the robot's response for its odometry.
+  [[nodiscard]] ReleaseHorizon& horizon() { return horizon_; }
+
   /// Processes what is still waiting.
   void finish();
 
@@ -91,6 +104,7 @@ class Pipeline {
   [[nodiscard]] std::optional<OdometryKind> odometry() const { return odometer_.kind(); }
 
  private:
+  [[nodiscard]] bool accept(Event& event);
   void insert(Event event);
   void process_front_group();
   void predict(Stamp stamp);
@@ -102,6 +116,8 @@ class Pipeline {
   [[nodiscard]] const Correction* correct();
   [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;
+  [[nodiscard]] const Event* next_yaw_rate() const;
+  [[nodiscard]] Duration shift_of(const EventContent& content) const;
 
   Filter& filter_;
   LandmarkSensor sensor_;
@@ -114,6 +130,8 @@ class Pipeline {
   Duration response_;  ///< of the robot to what its odometry reports
 
   std::deque<Event> waiting_;  // by stamp
+  ReleaseHorizon horizon_;
+  std::optional<std::uint16_t> robot_;  // of the first event
   std::optional<Stamp> processed_;
   std::vector<Observation> batch_;
   std::shared_ptr<const GreyImage> picture_;  // of the stamp that is being processed

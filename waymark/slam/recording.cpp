@@ -19,7 +19,9 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
   note(counts.late, "events dropped: they came later than pipeline.reorder_window_s allows");
   note(counts.unusable, "observations dropped: not finite or outside the sensor's range limits");
   note(counts.wrong_kind, "observations dropped: they lack what `observe` asks for");
-  note(counts.other_odometry, "odometry events ignored: of a second kind");
+  note(counts.other_odometry, "odometry events ignored: of a second kind or device");
+  note(counts.other_robots, "events ignored: of another robot than the first");
+  note(counts.robots_seen, "observations dropped: of other robots, which are no landmarks");
   note(counts.misfits, "pictures skipped: another size than camera.width_px x camera.height_px");
   note(counts.repeats, "pictures skipped: the stamp or every pixel of the one before");
   note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
