@@ -1,13 +1,14 @@
 #include "waymark/core/function_blocks.hpp"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 namespace waymark {
 namespace {
 
-/// Computes until this thread has used `amount` of CPU time.
 void compute_for(Duration amount) {
-  for (const Duration end = thread_cpu_time() + amount; thread_cpu_time() < end;) continue;
+  for (const Duration end = monotonic_time() + amount; monotonic_time() < end;) continue;
 }
 
 TEST(FunctionBlocks, StartAtZeroInTheGivenOrder) {
@@ -32,16 +33,30 @@ TEST(FunctionBlocks, AddUpCallsAndTime) {
 
 TEST(BlockTimer, GivesEveryBlockTheTimeSinceTheLastBorder) {
   FunctionBlocks blocks{"long", "short"};
-  const Duration start = thread_cpu_time();
-  BlockTimer timer(blocks);
-  compute_for(std::chrono::milliseconds{5});
-  timer.finish(0);
-  compute_for(std::chrono::milliseconds{1});
-  timer.finish(1);
-  const Duration spent = thread_cpu_time() - start;
+  const Duration start = monotonic_time();
+  {
+    BlockTimer timer(blocks, 0);
+    compute_for(std::chrono::milliseconds{5});
+    timer.finish(0);
+    compute_for(std::chrono::milliseconds{1});
+    timer.finish(1);
+  }
+  const Duration spent = monotonic_time() - start;
   EXPECT_GE(blocks.rows()[0].total, std::chrono::milliseconds{5});
   EXPECT_GE(blocks.rows()[1].total, std::chrono::milliseconds{1});
   EXPECT_LE(blocks.rows()[0].total + blocks.rows()[1].total, spent);
+}
+
+TEST(BlockTimer, LetsTimedCallsStandForThoseBetween) {
+  constexpr int kCalls = 20'000;
+  FunctionBlocks blocks{"short"};
+  for (int i = 0; i < kCalls; ++i) {
+    BlockTimer timer(blocks, 0);
+    compute_for(Duration{500});
+    timer.finish(0);
+  }
+  EXPECT_EQ(blocks.rows()[0].calls, kCalls);
+  EXPECT_GE(blocks.rows()[0].total, (kCalls - 200) * Duration{500});
 }
 
 }  // namespace

@@ -78,6 +78,20 @@ TEST(Pipeline, DropsAndCountsWhatComesTooLate) {
   EXPECT_EQ(f.pipeline.counts().late, 1);
 }
 
+TEST(Pipeline, TimesTheStepsInWhichSomethingWasObserved) {
+  Recorder filter;
+  std::vector<Duration> corrected, others;
+  Pipeline pipeline(filter, {}, {}, {}, Observe::kRangeBearing, [&](const Step& step) {
+    (step.correction != nullptr ? corrected : others).push_back(step.cpu);
+  });
+  for (Event& event : std::vector<Event>{speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)})
+    pipeline.push(std::move(event));
+  pipeline.finish();
+  ASSERT_EQ(corrected.size(), 1U);
+  EXPECT_GT(corrected[0], Duration{0});
+  EXPECT_EQ(others, std::vector<Duration>(2, Duration{0}));
+}
+
 TEST(Pipeline, TreatsObservationsOfOneStampAsOneBatch) {
   Fixture f;
   f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), seen(0.5, {sighting(2), sighting(3)}), speed(1.0, 1.0)});

@@ -191,7 +191,7 @@ void FastSlam::predict(const Motion& motion) {
   moved_ = true;
   history_.move(motion.increment);
   if (pending_.covariance(2, 2) < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;
-  BlockTimer timer(table_);
+  BlockTimer timer(table_, kUpdate);
   accepted_.clear();
   move_particles();
   estimate_ = fastslam::estimate(particles_, particle_blocks_);
@@ -208,7 +208,7 @@ void FastSlam::move_particles() {
 }
 
 const Correction& FastSlam::correct(std::span<const Observation> observations) {
-  BlockTimer timer(table_);
+  BlockTimer timer(table_, kAssociate);
   history_.scan();
   ++scan_;
   associate(observations);

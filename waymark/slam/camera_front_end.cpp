@@ -29,18 +29,18 @@ const Correction& CameraFrontEnd::see(const ImageView& image) {
 }
 
 void CameraFrontEnd::begin(const ImageView& image) {
-  const Duration start = thread_cpu_time();
+  stopwatch_.start();
   const auto expectations = filter_.expect();
-  filter_took_ = thread_cpu_time() - start;
+  filter_took_ = stopwatch_.stop();
   tracker_.begin(image, filter_.pose().T_world_robot, expectations);
 }
 
 /// One round.
 const Correction& CameraFrontEnd::correct(const vision::Sightings& sightings) {
-  const Duration start = thread_cpu_time();
+  stopwatch_.start();
   filter_.missed(sightings.missed);
   const Correction& correction = filter_.correct(sightings.found);
-  filter_took_ += thread_cpu_time() - start;
+  filter_took_ += stopwatch_.stop();
   innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
   tracker_.learn(correction);
   return correction;

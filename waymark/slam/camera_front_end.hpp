@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "waymark/core/stopwatch.hpp"
 #include "waymark/ekf/pixel_slam.hpp"
 #include "waymark/vision/tracker.hpp"
 
@@ -46,6 +47,7 @@ class CameraFrontEnd {
   vision::Tracker tracker_;
   std::vector<Innovation> innovations_;
   Correction correction_;
+  Stopwatch stopwatch_;
   Duration filter_took_{0};  ///< in this picture
   Duration filter_takes_{0};
 };

@@ -88,7 +88,7 @@ bool MarkerFrontEnd::fits(const ImageView& image) const {
 std::span<const Observation> MarkerFrontEnd::see(const Picture& picture) {
   const MarkerFinder::Finds finds = finder_.take(picture);
   blocks_.record(0, finds.cpu);
-  BlockTimer timer(blocks_);
+  BlockTimer timer(blocks_, 1);
   measure(picture, finds.markers);
   refuse_duplicates();
   hold_back_new();
@@ -97,7 +97,7 @@ std::span<const Observation> MarkerFrontEnd::see(const Picture& picture) {
 }
 
 std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines) {
-  BlockTimer timer(blocks_);
+  BlockTimer timer(blocks_, 1);
   measure(outlines);
   refuse_duplicates();
   hold_back_new();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "waymark/core/function_blocks.hpp"
-
 namespace waymark {
 namespace {
 
@@ -159,9 +157,17 @@ const Event* Pipeline::next_yaw_rate() const {
   return found == waiting_.end() ? nullptr : &*found;
 }
 
+bool Pipeline::front_group_observes() const {
+  const auto begins_next = [this](const Event& event) { return event.stamp != waiting_.front().stamp; };
+  const auto end = std::ranges::find_if(waiting_, begins_next);
+  return std::any_of(waiting_.begin(), end,
+                     [this](const Event& event) { return is_observed(event.content); });
+}
+
 void Pipeline::process_front_group() {
   const Stamp stamp = waiting_.front().stamp;
-  const Duration start = thread_cpu_time();
+  const bool observed = front_group_observes();
+  if (observed) stopwatch_.start();
   predict(stamp);
   batch_.clear();
   for (; !waiting_.empty() && waiting_.front().stamp == stamp; waiting_.pop_front()) {
@@ -180,8 +186,7 @@ void Pipeline::process_front_group() {
   }
   const Correction* correction = correct();
   Step step{stamp, filter_.pose(), dead_reckoning_, motion_, batch_, correction, picture_.get(), {}};
-  cpu_since_correction_ += thread_cpu_time() - start;
-  if (correction != nullptr) step.cpu = std::exchange(cpu_since_correction_, Duration{0});
+  if (observed) step.cpu = stopwatch_.stop();
   processed_ = stamp;
   sink_(step);
   if (picture_) last_picture_ = std::exchange(picture_, nullptr);

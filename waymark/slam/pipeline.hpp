@@ -8,6 +8,7 @@
 
 #include "waymark/core/event.hpp"
 #include "waymark/core/filter.hpp"
+#include "waymark/core/stopwatch.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/marker_front_end.hpp"
@@ -52,7 +53,7 @@ struct Step {
   std::span<const Observation> observations;  ///< as the filter got them. Valid during the call only.
   const Correction* correction = nullptr;     ///< null: nothing was observed. Valid during the call only.
   const GreyImage* picture = nullptr;         ///< what the front end looked into, if anything. Likewise.
-  Duration cpu{0};                            ///< of this thread in the filter since the last correction
+  Duration cpu{0};  ///< of this thread, where something was observed: from prediction to correction
 };
 
 /// What was not used, and why.
@@ -107,6 +108,7 @@ class Pipeline {
   [[nodiscard]] bool accept(Event& event);
   void insert(Event event);
   void process_front_group();
+  [[nodiscard]] bool front_group_observes() const;
   void predict(Stamp stamp);
   void collect(const Observations& observations);
   void announce(const Event& event);
@@ -138,7 +140,7 @@ class Pipeline {
   std::shared_ptr<const GreyImage> last_picture_;
   Pose2 dead_reckoning_;
   Motion motion_;  // to the stamp that is being processed
-  Duration cpu_since_correction_{0};
+  Stopwatch stopwatch_;
   bool odometry_seen_ = false;
   PipelineCounts counts_;
 };

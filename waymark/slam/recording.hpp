@@ -21,7 +21,7 @@ struct Recording {
   };
   struct TimedCost {
     Stamp stamp;
-    Duration cpu;  ///< filter time of this thread from one correction to the next
+    Duration cpu;  ///< of this thread, from the prediction to this stamp to the end of the correction
   };
 
   /// An observation as the filter got it, with the landmark that it was taken for.

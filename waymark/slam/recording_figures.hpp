@@ -7,7 +7,7 @@
 
 namespace waymark {
 
-/// Step times as thread CPU time from one correction to the next, us.
+/// CPU time of the thread in steps that corrected: prediction, what looks into pictures, correction; us.
 struct StepTimes {
   double mean_us = 0.0;
   double p50_us = 0.0;

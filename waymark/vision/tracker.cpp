@@ -140,19 +140,19 @@ void Tracker::save_up() {
 
 /// What the other thread does.
 void Tracker::look_behind() {
-  const Duration start = thread_cpu_time();
+  stopwatch_behind_.start();
   candidates_.budget.start(behind_);
   look_for(true, options_.new_corners.most_candidates, candidates_);
-  const Duration between = thread_cpu_time();
+  candidates_took_ = stopwatch_behind_.stop();
+  stopwatch_behind_.start();
   corners_ = new_corners_.find(image_, features_, candidates_under_way_, candidates_.budget);
-  candidates_took_ = between - start;
-  corners_took_ = thread_cpu_time() - between;
+  corners_took_ = stopwatch_behind_.stop();
   candidates_.is_out_of_budget |= candidates_.budget.refused() > Duration{0};
   save_up();
 }
 
 Sightings Tracker::match() {
-  BlockTimer timer(blocks_);
+  BlockTimer timer(blocks_, kMatch);
   if (is_usable_) look_for(false, options_.most_observed, landmarks_);
   gather(false, landmarks_);
   timer.finish(kMatch);

@@ -9,6 +9,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/core/grey_image.hpp"
+#include "waymark/core/stopwatch.hpp"
 #include "waymark/models/camera.hpp"
 #include "waymark/vision/frame_budget.hpp"
 #include "waymark/vision/landmark_finder.hpp"
@@ -133,6 +134,7 @@ class Tracker {
   std::int32_t next_number_ = 0;
 
   TrackerCounts counts_;
+  Stopwatch stopwatch_behind_;  ///< of whichever thread look_behind() runs on
   Duration corners_took_{0}, candidates_took_{0};
   FunctionBlocks blocks_{"FB2 corners", "FB4 match", "FB7 match candidates"};
   Background background_;  ///< last, so that its thread ends before what it works on
