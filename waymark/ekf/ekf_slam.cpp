@@ -150,7 +150,7 @@ void EkfSlam::hold_landmarks() {
 }
 
 void EkfSlam::predict(const Motion& motion) {
-  BlockTimer timer(blocks_, kPredict);
+  BlockTimer timer(blocks_, EkfBlock::kPredict);
   if (!is_still(motion) && is_finite(motion)) {
     odometry_.predict(state_, motion);
     errors_.drive(way_m(motion));
@@ -160,7 +160,7 @@ void EkfSlam::predict(const Motion& motion) {
 }
 
 const Correction& EkfSlam::correct(std::span<const Observation> observations) {
-  BlockTimer timer(blocks_, kAssociate);
+  BlockTimer timer(blocks_, EkfBlock::kAssociate);
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
   if (is_lost()) widen(observations);

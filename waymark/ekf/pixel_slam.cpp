@@ -144,7 +144,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
 }
 
 void PixelSlam::predict(const Motion& motion) {
-  BlockTimer timer(blocks_, kPredict);
+  BlockTimer timer(blocks_, PixelBlock::kPredict);
   in_picture_ = false;
   if (!is_still(motion) && is_finite(motion)) map_.state().predict(motion);
   timer.finish(PixelBlock::kPredict);
@@ -239,7 +239,7 @@ bool PixelSlam::is_in_view(const ekf::PixelMap::Feature& feature, const CameraPo
 }
 
 std::span<const Expectation> PixelSlam::expect() {
-  BlockTimer timer(blocks_, kProject);
+  BlockTimer timer(blocks_, PixelBlock::kProject);
   begin_picture();
   expectations_.clear();
   const CameraPose here = camera_pose();
@@ -370,7 +370,7 @@ void PixelSlam::missed(std::span<const LandmarkId> landmarks) {
 }
 
 const Correction& PixelSlam::correct(std::span<const Observation> observations) {
-  BlockTimer timer(blocks_, kJacobians);
+  BlockTimer timer(blocks_, PixelBlock::kJacobians);
   if (!in_picture_) begin_picture();
   innovations_.assign(observations.size(), {});
   for (std::size_t i = 0; i < observations.size(); ++i) sort_out(i, observations[i]);
