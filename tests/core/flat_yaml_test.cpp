@@ -29,6 +29,21 @@ TEST(FlatYaml, BadTextIsAnErrorWithItsLine) {
   EXPECT_THAT(flatten_yaml("? [1, 2]\n: 3\n", "f.yaml").error().message, HasSubstr("plain name"));
 }
 
+TEST(FlatYaml, WhatIsGoneThroughCountsAlsoWhereNothingComesOfIt) {
+  std::string yaml = "a: &a {}\nb: &b {";
+  for (char c = 'a'; c <= 'z'; ++c) yaml += std::string(1, c) + ": *a, ";
+  yaml += "}\n";
+  for (int i = 0; i < 1000; ++i) yaml += "k" + std::to_string(i) + ": *b\n";
+  EXPECT_THAT(flatten_yaml(yaml, "f.yaml").error().message, HasSubstr("too many keys"));
+}
+
+TEST(FlatYaml, SectionsDoNotAddUpToKeysWithoutEnd) {
+  const std::string section(300, 's');
+  EXPECT_TRUE(flatten_yaml(section + ": {a: 1}\n", "f.yaml").ok());
+  EXPECT_THAT(flatten_yaml(section + ": {" + section + ": 1}\n", "f.yaml").error().message,
+              HasSubstr("f.yaml:1: a key of 601 characters"));
+}
+
 TEST(FlatYaml, MapWithinItselfEnds) {
   EXPECT_THAT(flatten_yaml("a: &x\n  b: *x\n", "f.yaml").error().message, StartsWith("f.yaml:"));
 }

@@ -113,5 +113,16 @@ TEST(CameraYaml, RefusesWhatIsNoMap) {
   EXPECT_FALSE(read_camera_yaml("/nowhere/camera.yaml").ok());
 }
 
+TEST(CameraYaml, RefusesWhatUnfoldsWithoutEnd) {
+  std::string yaml = "l0: &l0 {}\n";
+  for (int level = 1; level < 15; ++level) {
+    const std::string before = std::to_string(level - 1);
+    yaml += "l" + std::to_string(level) + ": &l" + std::to_string(level) + " [";
+    for (int i = 0; i < 10; ++i) yaml += "*l" + before + ", ";
+    yaml += "]\n";
+  }
+  EXPECT_THAT(parse_camera_yaml(yaml, "c.yaml").error().message, HasSubstr("too many values"));
+}
+
 }  // namespace
 }  // namespace waymark

@@ -33,12 +33,6 @@ TEST(Files, MissingFileAndFolderInPlaceOfAFileAreErrorsThatNameThem) {
   EXPECT_FALSE(write_file(folder.path(), "a").ok());
 }
 
-TEST(Files, FileOfUnknownSizeIsReadToItsEnd) {
-  const auto text = read_file("/proc/self/status");
-  ASSERT_TRUE(text.ok());
-  EXPECT_THAT(*text, HasSubstr("Name:"));
-}
-
 TEST(Files, OutputFolderIsMadeWithThoseAboveIt) {
   const TempFolder folder;
   EXPECT_TRUE(ensure_output_folder(folder.path() / "a" / "b").ok());

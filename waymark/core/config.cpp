@@ -4,15 +4,14 @@
 #include <cctype>
 #include <charconv>
 #include <cstddef>
-#include <fstream>
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "waymark/core/flat_yaml.hpp"
+#include "waymark/core/read_file.hpp"
 
 namespace waymark {
 namespace {
@@ -230,11 +229,8 @@ Result<void> Schema::load_text(const std::string& yaml, const std::string& name)
 }
 
 Result<void> Schema::load_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) return Error{path.string() + ": cannot be read"};
-  std::ostringstream text;
-  text << file.rdbuf();
-  return load_text(text.str(), path.string());
+  const auto text = read_file(path);
+  return text ? load_text(*text, path.string()) : text.error();
 }
 
 std::string Schema::to_yaml() const {

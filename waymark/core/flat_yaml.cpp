@@ -1,18 +1,20 @@
 #include "waymark/core/flat_yaml.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "waymark/core/load_yaml.hpp"
+
 namespace waymark {
 namespace {
 
-// Aliases may nest a map in itself, or unfold without end; no file that a person wrote is so deep or long.
-constexpr std::ptrdiff_t kMaxDepth = 16;
-constexpr std::size_t kMaxEntries = 10000;
+// What is gone through counts, not what comes of it: empty sections give no entries. No file that a person
+// wrote has so much, or names of such a length.
+constexpr std::size_t kMaxSteps = 10000;
+constexpr std::size_t kMaxKeyLength = 500;
 
 class Flattener {
  public:
@@ -29,11 +31,12 @@ class Flattener {
  private:
   Result<void> add_entry(const YAML::Node& key_node, const YAML::Node& value, const std::string& prefix) {
     const int line = key_node.Mark().line + 1;
-    if (std::ranges::count(prefix, '.') > kMaxDepth || entries.size() > kMaxEntries)
-      return Error{
-          fmt::format("{}:{}: sections are nested too deep, or unfold to too many entries", name_, line)};
+    if (++steps_ > kMaxSteps)
+      return Error{fmt::format("{}:{}: too many keys, sections of aliases included", name_, line)};
     if (!key_node.IsScalar()) return Error{fmt::format("{}:{}: a key must be a plain name", name_, line)};
     const std::string key = prefix + key_node.Scalar();
+    if (key.size() > kMaxKeyLength)
+      return Error{fmt::format("{}:{}: a key of {} characters", name_, line, key.size())};
     if (value.IsMap()) return add(value, key + '.');
     if (value.IsSequence()) return Error{fmt::format("{}:{}: {} cannot be a list", name_, line, key)};
     if (value.IsNull() && !prefix.empty())
@@ -43,20 +46,18 @@ class Flattener {
   }
 
   const std::string& name_;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace
 
 Result<std::vector<FlatYamlEntry>> flatten_yaml(const std::string& yaml, const std::string& name) {
-  try {
-    const YAML::Node root = YAML::Load(yaml);
-    if (!root.IsMap() && !root.IsNull()) return Error{name + ":1: expected lines of `key: value`"};
-    Flattener flattener(name);
-    if (auto done = flattener.add(root, ""); !done) return done.error();
-    return std::move(flattener.entries);
-  } catch (const YAML::Exception& problem) {
-    return Error{fmt::format("{}:{}: {}", name, problem.mark.line + 1, problem.msg)};
-  }
+  const auto root = load_yaml(yaml, name);
+  if (!root) return root.error();
+  if (!root->IsMap() && !root->IsNull()) return Error{name + ":1: expected lines of `key: value`"};
+  Flattener flattener(name);
+  if (auto done = flattener.add(*root, ""); !done) return done.error();
+  return std::move(flattener.entries);
 }
 
 }  // namespace waymark

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "waymark/core/load_yaml.hpp"
 #include "waymark/io/files.hpp"
 #include "waymark/io/number_text.hpp"
 #include "waymark/io/text_lines.hpp"
@@ -131,11 +132,8 @@ std::optional<CameraOptions> take_lens(std::map<std::string, std::string>& setti
 }
 
 Result<CameraOptions> parse_camera_yaml(const std::string& yaml, const std::string& name) {
-  try {
-    return read_camera(YAML::Load(yaml), name);
-  } catch (const YAML::Exception& problem) {
-    return Error{fmt::format("{}:{}: {}", name, problem.mark.line + 1, problem.msg)};
-  }
+  const auto root = load_yaml(yaml, name);
+  return root ? read_camera(*root, name) : root.error();
 }
 
 Result<CameraOptions> read_camera_yaml(const std::filesystem::path& path) {

@@ -29,21 +29,6 @@ bool write_all(const std::filesystem::path& path, std::string_view content) {
 
 }  // namespace
 
-Result<std::string> read_file(const std::filesystem::path& path) {
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return system_error("read", path, errno);
-  std::error_code unknown;
-  const auto expected = std::filesystem::file_size(path, unknown);
-  std::string content(unknown ? 0 : expected, '\0');
-  content.resize(std::fread(content.data(), 1, content.size(), file.get()));
-  // A pipe has no size, and a file may grow while it is read.
-  char chunk[65536];
-  for (std::size_t count = 0; (count = std::fread(chunk, 1, sizeof chunk, file.get())) > 0;)
-    content.append(chunk, count);
-  if (std::ferror(file.get()) != 0) return system_error("read", path, errno);
-  return content;
-}
-
 Result<void> write_file(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path part = path;
   part += ".part";

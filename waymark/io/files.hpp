@@ -4,12 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "waymark/core/read_file.hpp"
 #include "waymark/core/result.hpp"
 
 namespace waymark {
-
-/// The whole file as bytes.
-[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
 /// Writes a file beside its place and moves it there: a reader sees the old content or the new, never a part.
 [[nodiscard]] Result<void> write_file(const std::filesystem::path& path, std::string_view content);

@@ -1,6 +1,8 @@
 // One log in every container, each written by a public writer: rosbag (Debian's python3-rosbag), npm's
 // @mcap/core with @foxglove/rosmsg2-serialization, and sqlite3 of Python. What is damaged afterwards must
 // cost no more than it hit.
+#include <sys/stat.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -299,6 +301,27 @@ TEST(BagFiles, OthersAreRefusedInOneLine) {
   EXPECT_THAT(error("other.db3", "SQLite format 3"), HasSubstr("other.db3: no ROS 2 bag, or a damaged one"));
   EXPECT_THAT(error("a.db3.zstd", "\x28\xb5\x2f\xfd"), HasSubstr("`zstd -d "));
   EXPECT_THAT(error("nothing.bag", ""), HasSubstr("nothing.bag: is empty; expected a ROS 1 bag"));
+}
+
+TEST(BagFiles, DevicesAndPipesAreRefused) {
+  const test::TempFolder folder;
+  fs::create_symlink("/dev/zero", folder.path() / "zero.bag");
+  EXPECT_THAT(open_bag_source(folder.path() / "zero.bag", {}).error().message, HasSubstr("zero.bag"));
+  ASSERT_EQ(::mkfifo((folder.path() / "metadata.yaml").c_str(), 0600), 0);
+  EXPECT_FALSE(open_source(folder.path()).ok());
+}
+
+TEST(BagFiles, AFileThatAFolderNamesAThousandTimesIsOneFile) {
+  const test::TempFolder folder;
+  std::string names = "&name gone_0.db3";
+  for (int i = 0; i < 1000; ++i) names += ", *name";
+  folder.write("metadata.yaml", "rosbag2_bagfile_information:\n  relative_file_paths: [" + names + "]\n");
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("gone_0.db3"));
+  folder.write("metadata.yaml", "rosbag2_bagfile_information:\n  relative_file_paths: [&a [], *a]\n");
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("metadata.yaml:2"));
+  folder.write("metadata.yaml",
+               "rosbag2_bagfile_information: {relative_file_paths: [" + std::string(400, 'x') + "]}\n");
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("File name too long"));
 }
 
 TEST(BagFiles, AFolderSaysWhichOfItsFilesAreMissing) {

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "waymark/core/read_file.hpp"
+
 namespace waymark::bag {
 namespace {
 
@@ -20,6 +22,7 @@ Error system_error(const std::string& what) { return {what + ": " + std::generic
 }  // namespace
 
 Result<std::shared_ptr<const InputFile>> InputFile::open(const std::filesystem::path& path) {
+  if (auto checked = check_is_file(path); !checked) return checked.error();
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return system_error("cannot read " + path.string());
   struct stat status = {};

@@ -1,11 +1,13 @@
 #include "waymark/io/bag/open_bag.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "waymark/core/load_yaml.hpp"
 #include "waymark/io/bag/byte_stream.hpp"
 #include "waymark/io/bag/joined_bag.hpp"
 #include "waymark/io/bag/mcap_format.hpp"
@@ -30,6 +32,7 @@ std::string first_bytes(const fs::path& path) {
 }
 
 Result<std::unique_ptr<Reader>> open_bag_file(const fs::path& path) {
+  if (const auto file = InputFile::open(path); !file) return file.error();
   const std::string magic = first_bytes(path);
   if (is_ros1_bag(magic)) return open_ros1_bag(path);
   if (is_mcap(magic)) return open_mcap(path);
@@ -48,13 +51,19 @@ struct Metadata {
   bool packed_messages = false;
 };
 
+/// The first versions of ROS 2 named files from outside of the folder.
+fs::path place_of(const fs::path& named, const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / named, ignored) ? folder / named : folder / named.filename();
+}
+
 Metadata read_metadata(const YAML::Node& root, const fs::path& folder) {
   Metadata metadata;
   const YAML::Node bag = root[kMetadataRoot];
+  std::set<std::string> names;  // a file that is named twice is one file
   for (const YAML::Node& node : bag["relative_file_paths"]) {
-    // The first versions of ROS 2 named files from outside of the folder.
     const fs::path named = node.as<std::string>();
-    metadata.files.push_back(fs::exists(folder / named) ? folder / named : folder / named.filename());
+    if (names.insert(named.string()).second) metadata.files.push_back(place_of(named, folder));
   }
   const auto mode = bag["compression_mode"].as<std::string>("");
   metadata.packed_messages = mode == "MESSAGE" || mode == "message";
@@ -78,8 +87,10 @@ Result<Metadata> look_into(const fs::path& folder) {
   if (!fs::exists(file)) return Metadata{bag_files(folder)};
   const auto text = read_file(file);
   if (!text) return text.error();
+  const auto root = load_yaml(*text, file.string());
+  if (!root) return root.error();
   try {
-    return read_metadata(YAML::Load(*text), folder);
+    return read_metadata(*root, folder);
   } catch (const YAML::Exception& problem) {
     return Error{fmt::format("{}:{}: {}", file.string(), problem.mark.line + 1, problem.msg)};
   }
