@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "waymark/io/json_text.hpp"
+
 #include "bench/camera_bench.hpp"
 #include "bench/ekf_bench.hpp"
 #include "bench/fastslam_bench.hpp"
@@ -35,7 +37,7 @@ struct BenchRequest {
 std::string params_text(const nlohmann::ordered_json& params) {
   std::string text;
   for (const auto& [key, value] : params.items())
-    text += fmt::format("{}={} ", key, value.is_string() ? value.get<std::string>() : value.dump());
+    text += fmt::format("{}={} ", key, value.is_string() ? value.get<std::string>() : json_text(value));
   return text;
 }
 
@@ -59,7 +61,7 @@ void print_json(const Machine& machine, const std::vector<BenchResult>& results)
   for (const auto& result : results)
     json["results"].push_back(
         {{"name", result.name}, {"params", result.params}, {"value", result.value}, {"unit", result.unit}});
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 Result<void> bench(const BenchRequest& request) {

@@ -9,6 +9,7 @@
 
 #include "waymark/eval/truth_check.hpp"
 #include "waymark/io/image_loader.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/results.hpp"
 
 #include "commands.hpp"
@@ -226,7 +227,7 @@ void print_log_json(const LogInfo& log, const Contents& contents, const std::vec
   for (const auto& [key, value] : log.settings) json["settings"][key] = value;
   json["odd"] = oddities;
   json["run"] = next;
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", json_text(json, 2));
 }
 
 Result<void> check_log(const CheckRequest& request) {

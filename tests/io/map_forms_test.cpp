@@ -39,6 +39,14 @@ TEST_P(Forms, JsonAndBackIsTheSameToTheLastBit) {
   EXPECT_EQ(*format_map(*read), *format_map(map));
 }
 
+TEST_P(Forms, JsonKeepsAMapWhoseMakerIsNotUtf8) {
+  const TempFolder folder;
+  MapState map = some_map(GetParam());
+  map.made_by = "ekf on R\xe4ume";
+  ASSERT_TRUE(write_map_of_any_form(folder.path() / "map.json", map).ok());
+  EXPECT_EQ(read_map_of_any_form(folder.path() / "map.json").value().made_by, "ekf on R\xef\xbf\xbdume");
+}
+
 TEST_P(Forms, ATableKeepsTheLandmarksWithoutTheirCorrelations) {
   const TempFolder folder;
   const MapState map = some_map(GetParam());

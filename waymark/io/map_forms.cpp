@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/io/map_files.hpp"
 
 namespace waymark {
@@ -71,7 +72,7 @@ std::string format_json(const MapState& map) {
     const Eigen::VectorXd row = map.covariance.row(i).tail(map.covariance.cols() - i);
     json["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
   }
-  return json.dump(1) + '\n';
+  return json_text(json, 1) + '\n';
 }
 
 MapState map_of(const Json& json) {
@@ -114,7 +115,7 @@ Result<MapState> read_json(const std::filesystem::path& path) {
     const Json json = Json::parse(*text);
     if (json.at("waymark_map") != 1)
       return Error{fmt::format("{}: version {} of the map format; this program reads 1", path.string(),
-                               json.at("waymark_map").dump())};
+                               json_text(json.at("waymark_map")))};
     return checked(map_of(json), path.string());
   } catch (const std::exception& problem) {
     return Error{fmt::format("{}: is no map: {}", path.string(), problem.what())};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/picture_text.hpp"
 #include "waymark/report/rounded.hpp"
@@ -119,10 +120,6 @@ Json projection_json(const CameraCalibration& calibration) {
       {"columns", calibrate::kProjectionColumns}, {"rows", calibrate::kProjectionRows}, {"places", places}};
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace
 
 std::string render_camera_report(const CameraReport& report) {
@@ -133,7 +130,7 @@ std::string render_camera_report(const CameraReport& report) {
   data["pictures"] = report.calibration.views.size();
   data["projection"] = projection_json(report.calibration);
   data["views"] = shown_views_json(report.calibration);
-  return fill_page(camera_page(), text_of(data, -1));
+  return fill_page(camera_page(), json_text(data));
 }
 
 Result<void> write_camera_report(const CameraReport& report, const std::filesystem::path& path) {
@@ -144,7 +141,7 @@ std::string camera_json_text(const CameraCalibration& calibration) {
   Json json = figures_json(calibration);
   json["views"] = Json::array();
   for (const View& view : calibration.views) json["views"].push_back(view_json(view, calibration.board));
-  return text_of(json, 2);
+  return json_text(json, 2);
 }
 
 }  // namespace waymark

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
 
@@ -42,7 +43,7 @@ std::string render_consistency_report(const ConsistencyReport& report) {
   Json comparisons = Json::array();
   for (const auto& comparison : report.comparisons) comparisons.push_back(to_json(comparison));
   const Json data{{"version", WAYMARK_VERSION}, {"command", report.command}, {"comparisons", comparisons}};
-  return fill_page(consistency_page(), data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return fill_page(consistency_page(), json_text(data));
 }
 
 Result<void> write_consistency_report(const ConsistencyReport& report, const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/rounded.hpp"
 
 namespace waymark {
@@ -24,7 +25,7 @@ std::string findings_json(const std::vector<calibrate::Finding>& findings) {
                        {"sigma", rounded(found.sigma)},
                        {"before", rounded(before)},
                        {"told", !found.is_untold}};
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace waymark

@@ -6,6 +6,7 @@
 #include "waymark/eval/path_alignment.hpp"
 #include "waymark/eval/trajectory_error.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/findings_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/path_series.hpp"
@@ -21,10 +22,6 @@ using calibrate::LogCalibration;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kWholeLog = "the path by the whole log";
-
-std::string dump(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
 
 Json json_of(const Drift& drift) {
   return {{"final_m", rounded(drift.final_m)},
@@ -105,7 +102,7 @@ std::string to_text(const LogCalibration& c) {
   return text;
 }
 
-std::string to_json(const LogCalibration& calibration) { return dump(json_of(calibration), 2) + "\n"; }
+std::string to_json(const LogCalibration& calibration) { return json_text(json_of(calibration), 2) + "\n"; }
 
 std::string render_report(const LogCalibration& c, const std::string& command) {
   Json json = json_of(c);
@@ -117,7 +114,7 @@ std::string render_report(const LogCalibration& c, const std::string& command) {
   json["map"] = map_of(c, start);
   json["distance"] = {{"before", distances(c.dead_reckoning_before, c, start)},
                       {"after", distances(c.dead_reckoning_after, c, start)}};
-  return fill_page(calibration_page(), dump(json, -1));
+  return fill_page(calibration_page(), json_text(json));
 }
 
 Result<void> write_results(const LogCalibration& calibration, const std::filesystem::path& folder,

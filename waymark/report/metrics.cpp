@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/micros.hpp"
 #include "waymark/report/rounded.hpp"
 #include "waymark/slam/make_filter.hpp"
@@ -197,7 +198,7 @@ std::string to_json(const Metrics& m) {
   for (const auto& each : m.calibration)
     json["calibration"][each.key] = {{"value", rounded(each.value)}, {"sigma", rounded(each.sigma)}};
   if (m.smoothed) json["smoothed"] = smoothed_json(*m.smoothed);
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config& config,
@@ -220,7 +221,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
 }
 
 std::string truth_json_text(const eval::Evaluation& evaluation) {
-  return truth_json(evaluation).dump(2) + "\n";
+  return json_text(truth_json(evaluation), 2) + "\n";
 }
 
 std::string to_text(const eval::Evaluation& e) {

@@ -5,6 +5,7 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/findings_text.hpp"
 #include "waymark/report/noise_chart.hpp"
 #include "waymark/report/pages.hpp"
@@ -68,7 +69,7 @@ std::string to_json(const MovingStudy& study) {
             {"notes", study.notes}};
   for (const calibrate::Value& times : study.odometry_noise)
     json["odometry_noise"].push_back({{"value", rounded(times.value)}, {"sigma", rounded(times.sigma)}});
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string render_report(const MovingStudy& study, const std::string& command) {
@@ -82,7 +83,7 @@ std::string render_report(const MovingStudy& study, const std::string& command) 
   json["notes"] = study.notes;
   json["found"] = found(study);
   json["charts"] = Json::parse(noise_charts_json(study.noise.ranges, study.noise.bearings));
-  return fill_page(sensor_page(), json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return fill_page(sensor_page(), json_text(json));
 }
 
 Result<void> write_results(const MovingStudy& study, const std::filesystem::path& folder,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/core/angle.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/rounded.hpp"
 
 namespace waymark {
@@ -17,8 +18,8 @@ std::string noise_chart_json(const NoiseAxes& axes, const std::vector<calibrate:
                       {"mean", rounded(axes.y_unit * bin.mean)},
                       {"sigma", rounded(axes.y_unit * bin.sigma.value)},
                       {"count", bin.count}});
-  return Json{{"title", axes.title}, {"note", axes.note}, {"x", axes.x}, {"y", axes.y}, {"points", points}}
-      .dump();
+  return json_text(
+      Json{{"title", axes.title}, {"note", axes.note}, {"x", axes.x}, {"y", axes.y}, {"points", points}});
 }
 
 std::string noise_charts_json(const std::vector<calibrate::NoiseBin>& ranges,

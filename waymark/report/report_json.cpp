@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/decimate.hpp"
 #include "waymark/report/nis_histogram.hpp"
 #include "waymark/report/pages.hpp"
@@ -225,7 +226,7 @@ std::string report_json(const ReportData& data) {
                      {"truth_landmarks", list(data.truth_landmarks)},
                      {"dead_reckoning", to_json(data.dead_reckoning)},
                      {"runs", list(data.runs)}};
-  return safe_in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return safe_in_script(json_text(json));
 }
 
 }  // namespace waymark

@@ -8,6 +8,7 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/noise_chart.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
@@ -123,7 +124,7 @@ std::string to_json(const StaticStudy& study) {
   add_limit(json["limits"], "left_deg", study.limits.left_rad, to_degrees(1.0));
   add_limit(json["limits"], "right_deg", study.limits.right_rad, to_degrees(1.0));
   json["notes"] = study.notes;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string render_report(const StaticStudy& study, const std::string& command) {
@@ -135,7 +136,7 @@ std::string render_report(const StaticStudy& study, const std::string& command) 
   json["notes"] = study.notes;
   json["found"] = findings(study);
   json["charts"] = Json::parse(noise_charts_json(bins(study, true), bins(study, false)));
-  return fill_page(sensor_page(), json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return fill_page(sensor_page(), json_text(json));
 }
 
 Result<void> write_results(const StaticStudy& study, const std::filesystem::path& folder,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
 
@@ -69,7 +70,7 @@ std::string render_sweep_report(const SweepReport& report) {
                   {"version", WAYMARK_VERSION},   {"runs", report.runs},
                   {"axes", report.summary.axes},  {"groups", groups_json(report.summary)},
                   {"published", published_json()}};
-  return fill_page(sweep_page(), data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return fill_page(sweep_page(), json_text(data));
 }
 
 Result<void> write_sweep_report(const SweepReport& report, const std::filesystem::path& path) {
@@ -77,7 +78,7 @@ Result<void> write_sweep_report(const SweepReport& report, const std::filesystem
 }
 
 std::string sweep_json_text(const study::SweepSummary& summary) {
-  return Json{{"groups", groups_json(summary)}}.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json_text(Json{{"groups", groups_json(summary)}}, 2);
 }
 
 }  // namespace waymark

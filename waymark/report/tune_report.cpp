@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "waymark/io/files.hpp"
+#include "waymark/io/json_text.hpp"
 #include "waymark/report/pages.hpp"
 #include "waymark/report/rounded.hpp"
 #include "waymark/study/tune_text.hpp"
@@ -66,7 +67,7 @@ std::string render_tune_report(const study::TuneResult& result, const std::strin
   Json data = result_json(result);
   data["command"] = command;
   data["version"] = WAYMARK_VERSION;
-  return fill_page(tune_page(), data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return fill_page(tune_page(), json_text(data));
 }
 
 Result<void> write_tune_report(const study::TuneResult& result, const std::string& command,
@@ -74,8 +75,6 @@ Result<void> write_tune_report(const study::TuneResult& result, const std::strin
   return write_file(path, render_tune_report(result, command));
 }
 
-std::string tune_json_text(const study::TuneResult& result) {
-  return result_json(result).dump(2, ' ', false, Json::error_handler_t::replace);
-}
+std::string tune_json_text(const study::TuneResult& result) { return json_text(result_json(result), 2); }
 
 }  // namespace waymark
