@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "waymark/core/event_list.hpp"
+#include "waymark/core/threads.hpp"
 #include "waymark/eval/evaluate.hpp"
 #include "waymark/slam/recording_figures.hpp"
 
@@ -44,15 +45,18 @@ class BusyCore {
   BusyCore& operator=(const BusyCore&) = delete;
   ~BusyCore() {
     stop_ = true;
-    thread_.join();
+    for (auto& thread : threads_) thread.join();
   }
 
  private:
   std::atomic<bool> stop_{false};
-  std::thread thread_{[this] {
-    while (!stop_) {
-    }
-  }};
+  std::vector<std::thread> threads_ = start_threads(
+      1,
+      [this] {
+        while (!stop_) {
+        }
+      },
+      [] {});
 };
 
 /// Minutes of pictures by the clock, with every frame that took longer than it may.

@@ -113,10 +113,12 @@ Result<void> judge(const study::Sweep& sweep, const std::string& folder) {
   const auto failed = [](const study::SweepRow& row) { return !row.error.empty(); };
   const auto count = std::ranges::count_if(rows, failed);
   if (count == 0) return {};
-  const auto all = static_cast<std::size_t>(count) == rows.size();
+  const bool all_refused = std::ranges::all_of(rows, [&failed](const study::SweepRow& row) {
+    return failed(row) && row.error_kind == Error::Kind::kBadInput;
+  });
   return Error{fmt::format("{} of {} runs could not be made, the first because: {}", count, rows.size(),
                            std::ranges::find_if(rows, failed)->error),
-               all ? Error::Kind::kBadInput : Error::Kind::kFailed};
+               all_refused ? Error::Kind::kBadInput : Error::Kind::kFailed};
 }
 
 Result<void> sweep_first(const SweepRequest& request, const study::SweepPlan& plan, Ranks& ranks) {

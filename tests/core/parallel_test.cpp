@@ -2,11 +2,17 @@
 
 #include <atomic>
 #include <cmath>
+#include <new>
 #include <numeric>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "support/no_more_threads.hpp"
 
 namespace waymark {
 namespace {
@@ -61,7 +67,47 @@ TEST_P(ThreadTeamOf, TakesAConstantJobAndOneWithState) {
   EXPECT_EQ(counter.calls, 10) << "the caller's own object is called, not a copy";
 }
 
+TEST_P(ThreadTeamOf, ThrowsWhatAJobThrowsAndServesOn) {
+  ThreadTeam team(GetParam());
+  for (const int blocks : {1, 2, 64}) {
+    std::atomic<int> ended = 0;
+    const auto job = [&](int block) {
+      if (block == blocks / 2) throw std::runtime_error("block " + std::to_string(block));
+      ++ended;
+    };
+    try {
+      team.run(blocks, job);
+      FAIL() << "nothing was thrown";
+    } catch (const std::runtime_error& problem) {
+      EXPECT_EQ(problem.what(), "block " + std::to_string(blocks / 2));
+    }
+    EXPECT_LT(ended, blocks);
+    ended = 0;
+    team.run(blocks, [&](int) { ++ended; });
+    EXPECT_EQ(ended, blocks) << "the team is of no more use";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ThreadTeamOf, testing::Values(1, 2, 3, 8));
+
+TEST(ThreadTeam, ThrowsOnceWhereAllBlocksThrow) {
+  ThreadTeam team(3);
+  EXPECT_THROW(team.run(100, [](int) { throw std::bad_alloc(); }), std::bad_alloc);
+  std::atomic<int> ended = 0;
+  team.run(100, [&](int) { ++ended; });
+  EXPECT_EQ(ended, 100);
+}
+
+TEST(ThreadTeam, ThatCannotBeStartedSaysSo) {
+  const test::NoMoreThreads none;
+  EXPECT_EQ(ThreadTeam(1).size(), 1);
+  try {
+    const ThreadTeam team(256);
+    FAIL() << "there can be no threads";
+  } catch (const std::system_error& problem) {
+    EXPECT_THAT(problem.what(), testing::StartsWith("could not start 255 threads: "));
+  }
+}
 
 TEST(ThreadTeam, UsesItsThreads) {
   // Two blocks that wait for each other can only end on two threads.

@@ -1,8 +1,12 @@
 #include "waymark/slam/marker_front_end.hpp"
 
+#include <stdexcept>
+#include <system_error>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/no_more_threads.hpp"
 #include "waymark/slam/recording.hpp"
 
 #include "markers/drawn_marker.hpp"
@@ -51,6 +55,40 @@ std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEn
   std::vector<std::int32_t> numbers;
   for (const Observation& each : front_end.see(picture)) numbers.push_back(each.id->number);
   return numbers;
+}
+
+/// Throws at pictures that begin dark.
+class FearsTheDark final : public markers::MarkerDetector {
+ public:
+  std::vector<markers::Marker> detect(const ImageView& image) override {
+    if (image.data[0] == 0) throw std::runtime_error("too dark");
+    return {{7, {}}};
+  }
+};
+
+MarkerFinder::Picture plain(std::uint8_t grey) { return std::make_shared<const GreyImage>(8, 8, grey); }
+
+TEST(MarkerFinder, ThrowsWhatTheDetectorThrewToWhoeverTakesThePicture) {
+  for (const bool own_thread : {true, false}) {
+    MarkerFinder finder(std::make_unique<FearsTheDark>(), own_thread);
+    const auto light = plain(200), dark = plain(0);
+    for (const auto& picture : {light, dark}) finder.announce(picture);
+    EXPECT_EQ(finder.take(light).markers.at(0).id, 7);
+    EXPECT_THROW(static_cast<void>(finder.take(dark)), std::runtime_error);
+  }
+}
+
+TEST(MarkerFinder, DropsAPictureAtWhichTheDetectorThrew) {
+  const auto dark = plain(0);
+  MarkerFinder finder(std::make_unique<FearsTheDark>(), true);
+  finder.announce(dark);
+  finder.drop(dark);
+  EXPECT_THROW(static_cast<void>(finder.take(dark)), std::runtime_error);
+}
+
+TEST(MarkerFinder, ThatCannotStartItsThreadSaysSo) {
+  const test::NoMoreThreads none;
+  EXPECT_THROW(MarkerFinder(std::make_unique<FearsTheDark>(), true), std::system_error);
 }
 
 TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {

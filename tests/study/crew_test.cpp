@@ -1,7 +1,10 @@
 #include "waymark/study/crew.hpp"
 
+#include <system_error>
+
 #include <gtest/gtest.h>
 
+#include "support/no_more_threads.hpp"
 #include "waymark/study/sweep_summary.hpp"
 
 #include "io/io_support.hpp"
@@ -36,6 +39,14 @@ TEST(Crew, MakesAllRunsAndTheResultDoesNotDependOnThreads) {
     for (const char* name : {"position_rmse_m", "landmark_rmse_m", "nees_median", "frobenius_mixture_m2"})
       EXPECT_EQ(alone[i].figures[figure_index(name)], together[i].figures[figure_index(name)]) << name;
   }
+}
+
+TEST(Crew, ThatCannotBeStartedStopsTheSweep) {
+  const TempFolder folder;
+  const auto sweep = Sweep::open(plan(), folder.path()).value();
+  const waymark::test::NoMoreThreads none;
+  EXPECT_THROW(Crew(*sweep, 2), std::system_error);
+  EXPECT_TRUE(sweep->stopped());
 }
 
 TEST(Crew, StoppedSweepEndsWithoutHalfARun) {

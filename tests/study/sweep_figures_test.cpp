@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "support/no_more_threads.hpp"
 #include "waymark/study/sweep_journal.hpp"
 #include "waymark/study/sweep_summary.hpp"
 
@@ -53,6 +54,17 @@ TEST(SweepFigures, RunThatCannotBeMadeHasItsErrorAndNoFigures) {
   const auto row = make_run(test::quick_plan({{"sim.range_max_m", {"0.1"}}}), {"0.1"});
   ASSERT_TRUE(row.has_value());
   EXPECT_THAT(row->error, HasSubstr("sim.range_max_m"));
+  EXPECT_EQ(row->error_kind, Error::Kind::kBadInput);
+  EXPECT_TRUE(std::ranges::all_of(row->figures, [](double value) { return std::isnan(value); }));
+}
+
+TEST(SweepFigures, RunInWhichSomethingIsThrownHasItsErrorToo) {
+  const SweepPlan plan = test::quick_plan({{"threads", {"2"}}});
+  const waymark::test::NoMoreThreads none;
+  const auto row = make_run(plan, {"2"});
+  ASSERT_TRUE(row.has_value());
+  EXPECT_THAT(row->error, HasSubstr("could not start a thread"));
+  EXPECT_EQ(row->error_kind, Error::Kind::kFailed);
   EXPECT_TRUE(std::ranges::all_of(row->figures, [](double value) { return std::isnan(value); }));
 }
 

@@ -52,6 +52,16 @@ TEST(Sweep, StoppedHandsOutNoMore) {
   EXPECT_TRUE(sweep->stopped());
 }
 
+TEST(Sweep, ThatFailsStopsAndKeepsTheFirstReason) {
+  const TempFolder folder;
+  const auto sweep = Sweep::open(plan({"1", "2"}), folder.path()).value();
+  EXPECT_FALSE(sweep->error().has_value());
+  sweep->fail({"first", Error::Kind::kFailed});
+  sweep->fail({"second", Error::Kind::kFailed});
+  EXPECT_EQ(sweep->error()->message, "first");
+  EXPECT_FALSE(sweep->take().has_value());
+}
+
 TEST(Sweep, RowsOfNoRunOfThePlanAreLeftOut) {
   const TempFolder folder;
   const auto sweep = Sweep::open(plan({"1"}), folder.path()).value();

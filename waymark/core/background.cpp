@@ -1,27 +1,35 @@
 #include "waymark/core/background.hpp"
 
+#include <utility>
+
+#include "waymark/core/threads.hpp"
+
 namespace waymark {
 
 Background::Background(bool own_thread) {
-  if (own_thread) thread_.emplace([this] { work(); });
+  threads_ = start_threads(
+      own_thread ? 1 : 0, [this] { work(); }, [this] { stop(); });
 }
 
 Background::~Background() {
-  if (!thread_) return;
+  stop();
+  for (auto& thread : threads_) thread.join();
+}
+
+/// What was started is done all the same.
+void Background::stop() {
   {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return call_ == nullptr; });
+    const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_->join();
 }
 
 void Background::start(Call call, void* context) {
-  if (!thread_) return call(context);
+  if (threads_.empty()) return call(context);
   {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return call_ == nullptr; });
+    wait(lock);
     call_ = call;
     context_ = context;
   }
@@ -29,19 +37,30 @@ void Background::start(Call call, void* context) {
 }
 
 void Background::wait() {
-  if (!thread_) return;
+  if (threads_.empty()) return;
   std::unique_lock lock(mutex_);
+  wait(lock);
+}
+
+void Background::wait(std::unique_lock<std::mutex>& lock) {
   changed_.wait(lock, [this] { return call_ == nullptr; });
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void Background::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || call_ != nullptr; });
-    if (stopping_) return;
+    if (call_ == nullptr) return;
     lock.unlock();
-    call_(context_);
+    std::exception_ptr failure;
+    try {
+      call_(context_);
+    } catch (...) {
+      failure = std::current_exception();
+    }
     lock.lock();
+    failure_ = std::move(failure);
     call_ = nullptr;
     changed_.notify_all();
   }

@@ -1,18 +1,27 @@
 #include "waymark/core/parallel.hpp"
 
+#include <utility>
+
+#include "waymark/core/threads.hpp"
+
 namespace waymark {
 
 ThreadTeam::ThreadTeam(int threads) {
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  workers_ = start_threads(
+      threads - 1, [this] { work(); }, [this] { stop(); });
 }
 
 ThreadTeam::~ThreadTeam() {
+  stop();
+  for (auto& worker : workers_) worker.join();
+}
+
+void ThreadTeam::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
   wake_.notify_all();
-  for (auto& worker : workers_) worker.join();
 }
 
 void ThreadTeam::start(int blocks, Call call, void* context) {
@@ -26,16 +35,28 @@ void ThreadTeam::start(int blocks, Call call, void* context) {
   wake_.notify_all();
   take_blocks(lock);
   done_.wait(lock, [this] { return unfinished_ == 0; });
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void ThreadTeam::take_blocks(std::unique_lock<std::mutex>& lock) {
   while (next_block_ < blocks_) {
     const int block = next_block_++;
     lock.unlock();
-    call_(context_, block);
+    try {
+      call_(context_, block);
+    } catch (...) {
+      give_up(std::current_exception());
+    }
     lock.lock();
     if (--unfinished_ == 0) done_.notify_one();
   }
+}
+
+void ThreadTeam::give_up(std::exception_ptr failure) {
+  const std::lock_guard lock(mutex_);
+  if (!failure_) failure_ = std::move(failure);
+  unfinished_ -= blocks_ - next_block_;  // nobody takes them any more
+  next_block_ = blocks_;
 }
 
 void ThreadTeam::work() {

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -14,7 +15,7 @@ namespace waymark {
 /// nothing.
 class ThreadTeam {
  public:
-  /// `threads` >= 1, the caller's included.
+  /// `threads` >= 1, the caller's included. Throws std::system_error where they cannot be started.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -23,7 +24,7 @@ class ThreadTeam {
   [[nodiscard]] int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls job(block) for every block in [0, blocks), on any thread and in any order; returns when all are
-  /// done.
+  /// done. What a job throws ends the others after the blocks under way, and is thrown here.
   template <class Job>
   void run(int blocks, Job&& job) {
     if (workers_.empty() || blocks < 2) {
@@ -42,6 +43,8 @@ class ThreadTeam {
   void start(int blocks, Call call, void* context);
   void work();
   void take_blocks(std::unique_lock<std::mutex>& lock);
+  void give_up(std::exception_ptr failure);
+  void stop();
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
@@ -54,6 +57,7 @@ class ThreadTeam {
   int unfinished_ = 0;
   std::uint64_t job_number_ = 0;
   bool stopping_ = false;
+  std::exception_ptr failure_;  ///< the first of the job
 };
 
 }  // namespace waymark

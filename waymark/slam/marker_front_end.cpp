@@ -5,25 +5,31 @@
 
 #include <fmt/format.h>
 
+#include "waymark/core/threads.hpp"
+
 namespace waymark {
 
 MarkerFinder::MarkerFinder(std::unique_ptr<markers::MarkerDetector> detector, bool own_thread)
     : detector_(std::move(detector)) {
-  if (own_thread) thread_.emplace([this] { work(); });
+  threads_ = start_threads(
+      own_thread ? 1 : 0, [this] { work(); }, [this] { stop(); });
 }
 
 MarkerFinder::~MarkerFinder() {
-  if (!thread_) return;
+  stop();
+  for (auto& thread : threads_) thread.join();
+}
+
+void MarkerFinder::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_->join();
 }
 
 void MarkerFinder::announce(Picture picture) {
-  if (!thread_) return;
+  if (threads_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(picture));
@@ -32,14 +38,21 @@ void MarkerFinder::announce(Picture picture) {
 }
 
 MarkerFinder::Finds MarkerFinder::take(const Picture& picture) {
-  if (!thread_) return look(*picture);
+  if (threads_.empty()) return look(*picture);
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return done_.contains(picture); });
+  if (!is_done(picture, lock)) std::rethrow_exception(failure_);
   return std::move(done_.extract(picture).mapped());
 }
 
 void MarkerFinder::drop(const Picture& picture) {
-  if (thread_) static_cast<void>(take(picture));
+  if (threads_.empty()) return;
+  std::unique_lock lock(mutex_);
+  if (is_done(picture, lock)) done_.erase(done_.find(picture));
+}
+
+bool MarkerFinder::is_done(const Picture& picture, std::unique_lock<std::mutex>& lock) {
+  changed_.wait(lock, [&] { return failure_ != nullptr || done_.contains(picture); });
+  return done_.contains(picture);
 }
 
 MarkerFinder::Finds MarkerFinder::look(const GreyImage& picture) {
@@ -50,6 +63,16 @@ MarkerFinder::Finds MarkerFinder::look(const GreyImage& picture) {
 }
 
 void MarkerFinder::work() {
+  try {
+    look_at_waiting();
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+    changed_.notify_all();
+  }
+}
+
+void MarkerFinder::look_at_waiting() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });

@@ -4,10 +4,10 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -38,6 +38,7 @@ class MarkerFinder {
   };
   using Picture = std::shared_ptr<const GreyImage>;
 
+  /// Throws std::system_error where the thread cannot be started.
   MarkerFinder(std::unique_ptr<markers::MarkerDetector> detector, bool own_thread);
   ~MarkerFinder();
   MarkerFinder(const MarkerFinder&) = delete;
@@ -45,7 +46,7 @@ class MarkerFinder {
 
   /// A picture that will be taken or dropped.
   void announce(Picture picture);
-  /// What is in one that was announced; waits where need be.
+  /// What is in one that was announced; waits where need be. What was thrown while looking is thrown here.
   [[nodiscard]] Finds take(const Picture& picture);
   /// It will not be needed.
   void drop(const Picture& picture);
@@ -53,6 +54,10 @@ class MarkerFinder {
  private:
   [[nodiscard]] Finds look(const GreyImage& picture);
   void work();
+  void look_at_waiting();
+  void stop();
+  /// Waits for what becomes of a picture: is it done?
+  [[nodiscard]] bool is_done(const Picture& picture, std::unique_lock<std::mutex>& lock);
 
   std::unique_ptr<markers::MarkerDetector> detector_;
   std::mutex mutex_;
@@ -61,7 +66,8 @@ class MarkerFinder {
   Picture at_work_;
   std::multimap<Picture, Finds> done_;
   bool stopping_ = false;
-  std::optional<std::thread> thread_;  ///< last: it works on the others
+  std::exception_ptr failure_;        ///< with which the thread has ended
+  std::vector<std::thread> threads_;  ///< one or none; last: it works on the others
 };
 
 /// What a camera sees of markers, as sightings for a filter over range and bearing.

@@ -9,10 +9,11 @@
 namespace waymark::study {
 
 /// Threads that make the runs of a sweep, one run each at a time, until there are no more. Stopping the sweep
-/// ends the runs under way without a result.
+/// ends the runs under way without a result. What is thrown beside the runs fails the sweep.
 class Crew {
  public:
-  /// `threads` >= 1. The sweep must outlive the crew.
+  /// `threads` >= 1. The sweep must outlive the crew. Throws std::system_error where they cannot be started,
+  /// the sweep being stopped then.
   Crew(Sweep& sweep, int threads);
   ~Crew();
   Crew(const Crew&) = delete;
@@ -22,6 +23,7 @@ class Crew {
 
  private:
   void work();
+  void make_runs();
 
   Sweep& sweep_;
   std::atomic<int> working_;

@@ -34,13 +34,20 @@ void Sweep::finish(SweepRow row) {
   const std::lock_guard lock(mutex_);
   const auto place = places_.find(row.point);
   if (place == places_.end()) return;
-  if (auto added = journal_.add(row); !added) {
-    error_ = added.error();
-    stopped_ = true;
-  }
+  if (auto added = journal_.add(row); !added) stop_for(added.error());
   auto& kept = rows_[place->second];
   done_ += kept ? 0 : 1;
   kept = std::move(row);
+}
+
+void Sweep::fail(Error error) {
+  const std::lock_guard lock(mutex_);
+  stop_for(std::move(error));
+}
+
+void Sweep::stop_for(Error error) {
+  if (!error_) error_ = std::move(error);
+  stopped_ = true;
 }
 
 void Sweep::stop() {

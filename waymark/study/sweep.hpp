@@ -33,6 +33,8 @@ class Sweep {
   void finish(SweepRow row);
   /// Hands out no more.
   void stop();
+  /// Stops for a reason, of which the first is kept.
+  void fail(Error error);
 
   [[nodiscard]] std::size_t total() const { return points_.size(); }
   [[nodiscard]] std::size_t done() const;
@@ -46,6 +48,7 @@ class Sweep {
 
  private:
   Sweep(const SweepPlan& plan, SweepJournal journal);
+  void stop_for(Error error);
 
   SweepPlan plan_;
   std::vector<SweepPoint> points_;

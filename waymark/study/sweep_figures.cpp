@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "waymark/core/angle.hpp"
+#include "waymark/core/failure.hpp"
 #include "waymark/io/number_text.hpp"
 #include "waymark/slam/recording_figures.hpp"
 
@@ -62,6 +64,19 @@ std::string cell(std::string text) {
   return text;
 }
 
+/// What is thrown becomes an error, too.
+Result<Figures> try_run(const SweepPlan& plan, const SweepPoint& point,
+                        const std::function<bool(double)>& keep_going) {
+  try {
+    const auto run = run_and_score(plan.input, settings(plan, point), {}, keep_going);
+    if (!run) return run.error();
+    if (run->recording.error) return *run->recording.error;
+    return figures_of(*run);
+  } catch (const std::exception& problem) {
+    return failure(problem);
+  }
+}
+
 }  // namespace
 
 Figures figures_of(const ScoredRun& run) {
@@ -79,19 +94,14 @@ Figures figures_of(const ScoredRun& run) {
 std::optional<SweepRow> make_run(const SweepPlan& plan, const SweepPoint& point,
                                  const std::function<bool()>& keep_going) {
   bool stopped = false;
-  const auto run = run_and_score(plan.input, settings(plan, point), {}, [&](double) {
+  const auto figures = try_run(plan, point, [&](double) {
     stopped = stopped || (keep_going && !keep_going());
     return !stopped;
   });
   if (stopped) return std::nullopt;
-  SweepRow row{point, {}, {}};
+  if (figures) return SweepRow{point, *figures, {}};
+  SweepRow row{point, {}, cell(figures.error().message), figures.error().kind};
   row.figures.fill(kUnknownFigure);
-  if (!run)
-    row.error = cell(run.error().message);
-  else if (run->recording.error)
-    row.error = cell(run->recording.error->message);
-  else
-    row.figures = figures_of(*run);
   return row;
 }
 

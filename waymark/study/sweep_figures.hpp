@@ -41,6 +41,7 @@ struct SweepRow {
   SweepPoint point;
   Figures figures{};
   std::string error;  ///< why there are no figures; empty if there are
+  Error::Kind error_kind = Error::Kind::kBadInput;
 };
 
 /// Every figure of a finished run. The Frobenius norm is that of the mean over the landmarks of their 2x2
@@ -48,8 +49,8 @@ struct SweepRow {
 /// without their spread, as the FastSLAM report has it. Equal for a filter without particles.
 [[nodiscard]] Figures figures_of(const ScoredRun& run);
 
-/// Makes one run of a plan; a run that cannot be made gives a row with its error. Nothing if `keep_going`
-/// said no. Safe to call from several threads.
+/// Makes one run of a plan; a run that cannot be made gives a row with its error, also where something is
+/// thrown, such as when memory runs out. Nothing if `keep_going` said no. Safe to call from several threads.
 [[nodiscard]] std::optional<SweepRow> make_run(const SweepPlan& plan, const SweepPoint& point,
                                                const std::function<bool()>& keep_going = {});
 
