@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace waymark::app {
 
@@ -33,6 +34,16 @@ class ProgressBar {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_{};
 };
+
+/// To standard error. That it is closed or full is no reason to end otherwise: nothing is thrown.
+void print_error(std::string_view text) noexcept;
+
+/// Keeps the numbers of standard streams that are closed from the files that are opened next, which would get
+/// what is meant for the streams. Writing to such a stream fails as before.
+void reserve_standard_streams();
+
+/// Why standard output did not take everything that was printed; empty: it did.
+[[nodiscard]] std::string output_failure();
 
 /// Whether the user pressed Ctrl-C since catch_interrupts(). A second Ctrl-C ends the program at once.
 void catch_interrupts();

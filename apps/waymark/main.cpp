@@ -1,10 +1,11 @@
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "waymark/core/failure.hpp"
 #include "waymark/kernels/instruction_set.hpp"
 
 #include "commands.hpp"
@@ -23,7 +24,7 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 failed while running, 2 wrong usage or bad input.";
 
 int report(const Error& error) {
-  fmt::print(stderr, "waymark: {}\n", error.message);
+  print_error("waymark: " + error.message + "\n");
   return error.kind == Error::Kind::kBadInput ? 2 : 1;
 }
 
@@ -104,13 +105,26 @@ int run_program(int argc, char** argv) {
   return done ? 0 : report(done.error());
 }
 
+/// What cannot be printed is thrown on, and may show only when all is done.
+int run_and_report(int argc, char** argv) {
+  int status = 0;
+  try {
+    status = run_program(argc, argv);
+  } catch (const std::exception& problem) {
+    if (output_failure().empty()) status = report(failure(problem));
+  }
+  const std::string lost = output_failure();
+  return status == 0 && !lost.empty() ? report({lost, Error::Kind::kFailed}) : status;
+}
+
 }  // namespace waymark::app
 
 int main(int argc, char** argv) {
+  waymark::app::reserve_standard_streams();
   try {
-    return waymark::app::run_program(argc, argv);
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "waymark: {}\n", problem.what());
+    return waymark::app::run_and_report(argc, argv);
+  } catch (const std::exception&) {  // no memory for the words, even
+    waymark::app::print_error("waymark: the memory does not suffice\n");
     return 1;
   }
 }
