@@ -25,4 +25,8 @@ refused() {
 refused sideways.hpp '#pragma once\n#include "../slam/pipeline.hpp"\n'
 refused short.hpp '#pragma once\n#include "good.hpp"\n'
 refused unguarded.hpp 'int f();\n'
+refused good.cpp 'auto root = YAML::Load(text);\n'
+refused good.cpp 'auto text = json.dump(2);\n'
+refused good.cpp 'workers_.emplace_back([] {});\n'
+refused good.cpp 'std::thread worker([] {});\n'
 refused forgotten.cpp '#include "waymark/core/good.hpp"\n'
