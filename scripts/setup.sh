@@ -11,7 +11,7 @@ packages=(
   libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev libapriltag-dev
 )
 dev_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev git
+  libgtest-dev libgmock-dev libbenchmark-dev git python3
   libopenmpi-dev openmpi-bin
   python3-rosbag python3-nav-msgs python3-sensor-msgs python3-geometry-msgs lz4 zstd
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
