@@ -8,11 +8,11 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <hwy/targets.h>
 
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/random.hpp"
 #include "waymark/io/image_file.hpp"
+#include "waymark/kernels/highway_targets.hpp"
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"
 #include "waymark/vision/search.hpp"

@@ -15,10 +15,11 @@ endfunction()
 #   DEPENDS <folders before this one...>
 #   LIBRARIES <imported targets that the headers need...>
 #   PRIVATE_LIBRARIES <imported targets that only the sources need...>
-#   BATCH <number of files>)
+#   BATCH <number of files>
+#   ALONE <files...>)
 # Makes the library waymark_<name>, known as waymark::<name>.
 function(waymark_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES;ALONE")
   waymark_check_arguments("waymark_folder(${name})")
   waymark_check_order(${name} "${arg_DEPENDS}")
 
@@ -35,32 +36,33 @@ function(waymark_folder name)
   list(TRANSFORM arg_DEPENDS PREPEND waymark:: OUTPUT_VARIABLE folders)
   target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
   waymark_warnings(${target})
-  waymark_batch(${target} "${arg_BATCH}")
+  waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_record_reach(${name} "${arg_DEPENDS}")
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
 endfunction()
 
-# waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...> BATCH <number of files>)
+# waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...> BATCH <number of files>
+#   ALONE <files...>)
 # A program that lands at the top of the build tree; its target is waymark_program_<name>.
 function(waymark_program name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES;ALONE")
   waymark_check_arguments("waymark_program(${name})")
   set(target waymark_program_${name})
   add_executable(${target} ${arg_SOURCES})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
-  waymark_batch(${target} "${arg_BATCH}")
+  waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_link(${target} "${arg_DEPENDS}" "${arg_LIBRARIES}")
 endfunction()
 
-# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files>)
+# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files> ALONE <files...>)
 # One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>.
 function(waymark_test folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES;ALONE")
   waymark_check_arguments("waymark_test(${folder})")
   set(target waymark_${folder}_test)
   add_executable(${target} ${arg_FILES})
-  waymark_batch(${target} "${arg_BATCH}")
+  waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
   gtest_discover_tests(
     ${target}
@@ -78,13 +80,17 @@ function(waymark_bench folder)
   waymark_link(${target} "${folder}" "benchmark::benchmark_main;${arg_LIBRARIES}")
 endfunction()
 
-# Where CMAKE_UNITY_BUILD is on, so many files of the target go to the compiler at once, which reads what they all include
-# only once. Larger batches are quicker; more than the number given would take the compiler over 700 MB.
-function(waymark_batch target files)
+# Where CMAKE_UNITY_BUILD is on, so many files of the target (BATCH, 8 unless given) go to the compiler at once, which reads
+# what they all include only once; those named ALONE do not. Larger batches are quicker, but no compiler process may need
+# more than 700 MB, so that two fit into small machines: scripts/measure_build.sh.
+function(waymark_batch target files alone)
   if(NOT files)
     set(files 8)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${files})
+  if(alone)
+    set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
 endfunction()
 
 # Links a program with those of the named folders that exist, and with other targets.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing to build Waymark on Debian 12; --dev adds what tests and checks need. Quick, without root and
-# without network, when nothing is missing.
+# Installs what is missing to build Waymark on Debian 12; --dev adds what tests and checks need, --pages only what bundling
+# pages needs (scripts/pages.sh). Quick, without root and without network, when nothing is missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -17,13 +17,17 @@ dev_packages=(
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
 )
 
+pages=no
 case "${1:-}" in
   "") ;;
-  --dev) packages+=("${dev_packages[@]}") ;;
-  *) echo "usage: setup.sh [--dev]" >&2; exit 2 ;;
+  --dev) packages+=("${dev_packages[@]}") pages=yes ;;
+  --pages) pages=yes ;;
+  *) echo "usage: setup.sh [--dev|--pages]" >&2; exit 2 ;;
 esac
-command -v node >/dev/null || packages+=(nodejs)
-command -v npm >/dev/null || packages+=(npm)
+if [ "$pages" = yes ]; then
+  command -v node >/dev/null || packages+=(nodejs)
+  command -v npm >/dev/null || packages+=(npm)
+fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -41,7 +45,7 @@ fi
 
 # The lock file that node_modules was installed from is remembered inside it.
 installed_lock=web/node_modules/.installed-package-lock.json
-if [ -f web/package-lock.json ] && ! cmp -s web/package-lock.json "$installed_lock"; then
+if [ "$pages" = yes ] && ! cmp -s web/package-lock.json "$installed_lock"; then
   echo "setup: installing the node packages of web/"
   npm ci --prefix web --no-audit --no-fund --loglevel=error
   mkdir -p web/node_modules

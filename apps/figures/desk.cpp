@@ -119,12 +119,12 @@ class Follower {
     for (const Followed* each : found) {
       const std::size_t n = each->places.size();
       pairs.push_back({each->places[n - 2], each->places[n - 1]});
-      du.push_back(pairs.back().now.x() - pairs.back().before.x());
-      dv.push_back(pairs.back().now.y() - pairs.back().before.y());
+      du.push_back(pairs.back().to.x() - pairs.back().from.x());
+      dv.push_back(pairs.back().to.y() - pairs.back().from.y());
     }
     const Consensus consensus = find_homography(pairs, kAgreement_px);
     for (std::size_t i = 0; i < found.size(); ++i)
-      found[i]->A = consensus.derivative(pairs[i].before) * found[i]->A;
+      found[i]->A = consensus.derivative(pairs[i].from) * found[i]->A;
     frame.agreeing = consensus.size();
     motion_ = {eval::median(du).value_or(0.0), eval::median(dv).value_or(0.0)};
   }

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "waymark/core/random.hpp"
 
@@ -12,24 +12,6 @@ namespace waymark {
 namespace {
 
 constexpr int kDraws = 200;
-
-/// Least squares of the linear equations with H(2, 2) = 1: two pictures of a small motion are far from where
-/// that vanishes.
-Eigen::Matrix3d fit(std::span<const PlacePair> pairs) {
-  const auto count = static_cast<Eigen::Index>(pairs.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 8> A(2 * count, 8);
-  Eigen::VectorXd b(2 * count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [p, q] = pairs[static_cast<std::size_t>(i)];
-    A.row(2 * i) << p.x(), p.y(), 1.0, 0.0, 0.0, 0.0, -q.x() * p.x(), -q.x() * p.y();
-    A.row(2 * i + 1) << 0.0, 0.0, 0.0, p.x(), p.y(), 1.0, -q.y() * p.x(), -q.y() * p.y();
-    b.segment<2>(2 * i) = q;
-  }
-  const Eigen::Matrix<double, 8, 1> h = A.colPivHouseholderQr().solve(b);
-  Eigen::Matrix3d H;
-  H << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1.0;
-  return H;
-}
 
 Consensus judge(std::span<const PlacePair> pairs, const Eigen::Matrix3d& H, double threshold_px) {
   Consensus consensus{H, {}};
@@ -61,15 +43,16 @@ std::size_t Consensus::size() const { return static_cast<std::size_t>(std::range
 Consensus find_homography(std::span<const PlacePair> pairs, double threshold_px) {
   Consensus best{.H = Eigen::Matrix3d::Identity(), .agrees = std::vector<bool>(pairs.size(), false)};
   if (pairs.size() < 5) return best;
-  const auto keep_better = [&](const Eigen::Matrix3d& H) {
-    if (auto other = judge(pairs, H, threshold_px); other.size() >= best.size()) best = std::move(other);
+  const auto keep_better = [&](const std::optional<Eigen::Matrix3d>& H) {
+    if (!H) return;
+    if (auto other = judge(pairs, *H, threshold_px); other.size() >= best.size()) best = std::move(other);
   };
   RandomStream random(1, StreamPurpose::kSimulation);
-  for (int i = 0; i < kDraws; ++i) keep_better(fit(draw(pairs, random)));
+  for (int i = 0; i < kDraws; ++i) keep_better(homography(draw(pairs, random)));
   std::vector<PlacePair> agreeing;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (best.agrees[i]) agreeing.push_back(pairs[i]);
-  if (agreeing.size() > 4) keep_better(fit(agreeing));
+  if (agreeing.size() > 4) keep_better(homography(agreeing));
   return best;
 }
 

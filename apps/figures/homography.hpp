@@ -5,13 +5,9 @@
 
 #include <Eigen/Core>
 
-namespace waymark {
+#include "waymark/models/homography.hpp"
 
-/// One place in two pictures.
-struct PlacePair {
-  Eigen::Vector2d before;
-  Eigen::Vector2d now;
-};
+namespace waymark {
 
 /// A homography, now ~ H (before, 1), and which pairs agree with it.
 struct Consensus {

@@ -184,13 +184,11 @@ class Initialiser {
     const auto finding =
         finder_.look_for({.predicted_px = *predicted, .S = S}, picture, {}, candidate.appearance);
     if (finding.result == vision::Look::Result::kNotTried) return give_up(candidate);
-    Glance glance{number_, *predicted, S, std::nullopt, where_particles_are(candidate), {}};
-    if (finding.result == vision::Look::Result::kFound && weigh(candidate, finding.pixel))
-      glance.found = finding.pixel;
-    else
-      ++candidate.misses;
-    glance.depth_m = candidate.depths.depth();
-    candidate.glances.push_back(std::move(glance));
+    auto particles = where_particles_are(candidate);
+    const bool found = finding.result == vision::Look::Result::kFound && weigh(candidate, finding.pixel);
+    if (!found) ++candidate.misses;
+    candidate.glances.push_back({number_, *predicted, S, found ? std::optional(finding.pixel) : std::nullopt,
+                                 std::move(particles), candidate.depths.depth()});
     if (candidate.misses >= kMostMisses) return give_up(candidate);
     const auto& depth = candidate.glances.back().depth_m;
     if (candidate.glances.size() >= kLeastPictures && depth.sigma < kDepthRatio * depth.mean)

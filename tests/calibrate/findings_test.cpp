@@ -50,7 +50,7 @@ TEST(Findings, InForceTheyDifferFromBeforeByWhatWasEstimated) {
     const Calibration found = deviation(before, after, kind);
     Calibration expected = run.calibration.mean;
     if (kind == OdometryKind::kVelocity) expected[kTurnPerMetre] = 0.0;  // no key for it
-    EXPECT_TRUE(test::matrix_near(found, expected, 1e-4));
+    EXPECT_TRUE(waymark::test::matrix_near(found, expected, 1e-4));
   }
 }
 

@@ -10,8 +10,8 @@
 namespace waymark::calibrate {
 namespace {
 
-using test::matrix_near;
-using test::numeric_jacobian;
+using waymark::test::matrix_near;
+using waymark::test::numeric_jacobian;
 
 constexpr WheelGeometry kWheels{0.10, 0.102, 0.35};
 

@@ -4,9 +4,8 @@
 #include <cstdio>
 #include <vector>
 
-#include <hwy/highway.h>
-
 #include "waymark/kernels/fast_corners.hpp"
+#include "waymark/kernels/highway_targets.hpp"
 #include "waymark/kernels/zmssd.hpp"
 
 namespace waymark::kernels {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/kernels/highway_targets.hpp"
 #include "waymark/kernels/layout.hpp"
 
 namespace waymark::test {

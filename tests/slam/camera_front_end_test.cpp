@@ -8,6 +8,7 @@
 
 #include "support/allocation_counter.hpp"
 #include "waymark/slam/make_filter.hpp"
+#include "waymark/slam/pipeline.hpp"
 
 #include "pictures.hpp"
 

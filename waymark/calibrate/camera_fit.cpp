@@ -5,10 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "waymark/calibrate/plane_homography.hpp"
+#include "waymark/core/solve_symmetric.hpp"
 
 namespace waymark::calibrate {
 namespace {
@@ -87,11 +87,12 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& T, const Vector6d& step) {
 Eigen::Isometry3d pose_of(Matrix3d H) {
   H *= 2.0 / (H.col(0).norm() + H.col(1).norm());
   if (H(2, 2) < 0.0) H = -H;  // in front of the camera
-  Matrix3d R;
-  R << H.col(0), H.col(1), H.col(0).cross(H.col(1));
-  const Eigen::JacobiSVD<Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // The axes x and y at right angles that lie evenly about those of H.
+  const Vector3d middle = (H.col(0).normalized() + H.col(1).normalized()).normalized();
+  const Vector3d z = H.col(0).cross(H.col(1)).normalized();
+  const Vector3d aside = middle.cross(z);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = svd.matrixU() * svd.matrixV().transpose();
+  T.linear() << std::sqrt(0.5) * (middle + aside), std::sqrt(0.5) * (middle - aside), z;
   T.translation() = H.col(2);
   return T;
 }
@@ -173,7 +174,7 @@ class Adjustment {
   /// Of the intrinsics alone, J'J with the poses eliminated; fixed ones have ones on the diagonal.
   [[nodiscard]] IntrinsicsCovariance information() const {
     IntrinsicsCovariance S = IntrinsicsCovariance::Zero();
-    for (const Normal& n : build()) S += n.A - n.B * n.C.ldlt().solve(n.B.transpose());
+    for (const Normal& n : build()) S += n.A - n.B * solve_symmetric(n.C, n.B.transpose());
     return only_free(S);
   }
 
@@ -220,12 +221,12 @@ class Adjustment {
     for (const Normal& n : normals) {
       Matrix6d C = n.C;
       C.diagonal() *= 1.0 + damping;
-      inverses.emplace_back(C.inverse());
+      inverses.emplace_back(solve_symmetric(C, Matrix6d::Identity()));
       S += n.A - n.B * inverses.back() * n.B.transpose();
       S.diagonal() += damping * n.A.diagonal();
       s += n.a - n.B * inverses.back() * n.c;
     }
-    const Intrinsics step = only_free(S).ldlt().solve(free_.cwiseProduct(s));
+    const Intrinsics step = solve_symmetric(only_free(S), free_.cwiseProduct(s));
     Poses poses;
     for (std::size_t i = 0; i < normals.size(); ++i)
       poses.push_back(

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "waymark/core/principal_axes.hpp"
+#include "waymark/core/solve_symmetric.hpp"
 
 namespace waymark::calibrate {
 
@@ -35,12 +36,11 @@ std::vector<ProjectionSigma> projection_sigmas(const CameraOptions& camera,
       WtG += W.back().transpose() * G.back();
     }
   if (places.empty()) return places;
-  const Eigen::Matrix<double, 3, kIntrinsics> turn_of = WtW.ldlt().solve(WtG);
+  const Eigen::Matrix<double, 3, kIntrinsics> turn_of = solve_symmetric(WtW, WtG);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const PixelToIntrinsics M = G[i] - W[i] * turn_of;
     const Eigen::Matrix2d P = M * covariance * M.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(P, Eigen::EigenvaluesOnly);
-    places[i].sigma_px = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+    places[i].sigma_px = std::sqrt(std::max(0.0, principal_axes(P).variances[1]));
   }
   return places;
 }

@@ -4,10 +4,8 @@
 #include <numeric>
 #include <set>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
-
 #include "waymark/calibrate/folds.hpp"
+#include "waymark/core/symmetric_eigen.hpp"
 
 namespace waymark::calibrate {
 namespace {
@@ -86,9 +84,9 @@ Intrinsics score(const Task& task, const View& view, const FittedView& fit, cons
 
 /// The scores of the views in the rows, in units of what noise of the corners would make.
 Eigen::MatrixXd scores(const Task& task, const CameraFit& one) {
-  const Eigen::SelfAdjointEigenSolver<IntrinsicsCovariance> eigen(one.covariance);
-  const Intrinsics sigma = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const IntrinsicsCovariance to_noise = sigma.asDiagonal() * eigen.eigenvectors().transpose();
+  const auto [variances, directions] = symmetric_eigen(one.covariance);
+  const Intrinsics sigma = variances.cwiseMax(0.0).cwiseSqrt();
+  const IntrinsicsCovariance to_noise = sigma.asDiagonal() * directions.transpose();
   const Camera camera(one.camera);
   Eigen::MatrixXd rows(task.count(), kIntrinsics);
   for (std::size_t i = 0; i < task.count(); ++i)
@@ -119,8 +117,11 @@ std::vector<Sides> starts(const Task& task, const CameraFit& one) {
   const auto count = static_cast<Eigen::Index>(task.count());
   std::vector<Sides> result{by_fate(task), by_name(task)};
   result.push_back(above(Eigen::VectorXd::LinSpaced(count, -1.0, 1.0), 0.0));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scores(task, one), Eigen::ComputeThinU);
-  for (Eigen::Index k = 0; k < kComponents; ++k) result.push_back(above(svd.matrixU().col(k), 0.0));
+  const Eigen::Matrix<double, Eigen::Dynamic, kIntrinsics> rows = scores(task, one);
+  const SmallMatrix axes =
+      symmetric_eigen(rows.transpose() * rows).vectors;  // the principal ones are the last
+  for (Eigen::Index k = 1; k <= kComponents; ++k)
+    result.push_back(above(rows * axes.col(kIntrinsics - k), 0.0));
   Eigen::VectorXd errors(count);
   std::ranges::transform(one.views, errors.begin(), [](const FittedView& view) { return view.rms_px(); });
   Eigen::VectorXd sorted = errors;

@@ -5,18 +5,9 @@
 #include <vector>
 
 #include "waymark/core/config.hpp"
+#include "waymark/ekf/depth_prior.hpp"
 
 namespace waymark::ekf {
-
-/// How far away something may be that was seen once.
-struct DepthPrior {
-  enum class Spacing { kInverseDepth, kDepth };
-
-  int particles = 100;
-  double nearest_m = 0.5;
-  double farthest_m = 15.0;
-  Spacing spacing = Spacing::kInverseDepth;
-};
 
 /// Where along its ray a point may be: particles over its depth, weighted by every picture in which it is
 /// found (Davison 2003; Vincke et al. 2012, section 2.4). A particle stands for all depths that are nearer to

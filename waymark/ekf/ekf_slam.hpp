@@ -13,6 +13,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
+#include "waymark/ekf/ekf_options.hpp"
 #include "waymark/ekf/lasting_errors.hpp"
 #include "waymark/ekf/locate.hpp"
 #include "waymark/ekf/map_management.hpp"
@@ -20,42 +21,8 @@
 
 namespace waymark {
 
-namespace ekf {
-
-/// How wild a sighting may be that was not gated.
-enum class Likelihood {
-  kGaussian,
-  kStudent  ///< heavy tails: the larger what is left of an innovation, the less the sighting counts
-};
-
-}  // namespace ekf
-
-/// How updates of the camera's filter are computed.
-enum class UpdateMethod {
-  kFast,     ///< only what H touches, as P -= W^T W
-  kTextbook  ///< with dense matrices and plain loops, to compare with: needs Consistency::kStandard
-};
-
-/// Whether the map outside of the robot's region is left alone for the time being.
-enum class Compress { kAuto, kAlways, kNever };
-
-struct EkfOptions {
-  ekf::Consistency consistency = ekf::Consistency::kInvariant;
-  int capacity = 1000;
-  ekf::Eviction evict = ekf::Eviction::kInformation;
-  Compress compressed = Compress::kAuto;
-  int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
-  ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
-  UpdateMethod update = UpdateMethod::kFast;
-  OdometryStateOptions odometry;  ///< with which a map is not compressed
-  int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
-  int loaded = 0;  ///< landmarks that load() will bring: they are the first region of a compressed map
-};
-
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
 [[nodiscard]] ekf::Compression compression(const EkfOptions& options);
-
-void describe(Schema& schema, EkfOptions& options);
 
 namespace ekf {
 

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "waymark/core/angle.hpp"
+#include "waymark/core/principal_axes.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/ekf/locate.hpp"
 
@@ -56,7 +57,7 @@ std::vector<Eigen::Vector2d> starts(const Pose2& T_world_sensor, const Measureme
 /// So far from the next view, a range to a point that is this unsure sideways is as good as linear, and so is
 /// a bearing to one that is this unsure in depth.
 bool is_sure(const ekf::Located& located, double nearest_m, double range_sigma_m) {
-  const double variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(located.covariance).eigenvalues()[1];
+  const double variance = principal_axes(located.covariance).variances[1];
   return variance < kSureEnough * kSureEnough * nearest_m * nearest_m &&
          variance < 2.0 * nearest_m * kBend * range_sigma_m;
 }

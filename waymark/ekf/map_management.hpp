@@ -6,14 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace waymark::ekf {
+#include "waymark/ekf/eviction.hpp"
 
-/// Which landmark makes room for a new one when the map is full.
-enum class Eviction {
-  kInformation,  ///< the one whose sightings tell least about where the robot is
-  kArticle,      ///< the one with the largest robot block of I - K H, as Vincke et al. 2012
-  kNone,         ///< none: the new one is refused
-};
+namespace waymark::ekf {
 
 /// One sighting against the robot's pose, all before the update: P_pose its covariance, C_pose = P(pose, :)
 /// H^T, S = H P H^T + R.

@@ -9,19 +9,12 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/parallel.hpp"
+#include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/textbook_update.hpp"
 #include "waymark/ekf/touched.hpp"
 #include "waymark/kernels/layout.hpp"
 
 namespace waymark::ekf {
-
-/// At which point the filter linearises, which decides whether it fools itself about its heading.
-enum class Consistency {
-  kInvariant,  ///< right-invariant error (Barrau and Bonnabel 2015) in ordinary coordinates: a shear after
-               ///< each update
-  kFej,        ///< first-estimates Jacobians (Huang, Mourikis, Roumeliotis 2010)
-  kStandard,   ///< at the latest estimate, as in the 2012 article; overconfident when the odometry is poor
-};
 
 /// One linearised sighting of landmark `landmark`: nu = z - h, H_pose and H_landmark its Jacobians, R its
 /// noise. Only the first `rows` rows and, of H_landmark, the first `dimension()` columns count. `errors` says

@@ -3,6 +3,9 @@
 #include <algorithm>
 
 // What all instruction sets share, once.
+
+#include "waymark/kernels/highway_targets.hpp"
+
 #ifndef WAYMARK_KERNELS_FAST_CORNERS_PLAIN
 #define WAYMARK_KERNELS_FAST_CORNERS_PLAIN
 namespace waymark::kernels {
@@ -31,8 +34,6 @@ bool is_largest(const std::uint8_t* above, const std::uint8_t* row, const std::u
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/fast_corners.cpp"
-// Lane counts must be known at compile time; SVE machines run the NEON code.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

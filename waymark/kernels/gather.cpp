@@ -1,5 +1,7 @@
 #include "waymark/kernels/gather.hpp"
 
+#include "waymark/kernels/highway_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/gather.cpp"
 #include <hwy/foreach_target.h>

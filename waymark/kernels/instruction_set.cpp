@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <iterator>
 
+#include "waymark/kernels/highway_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/instruction_set.cpp"
-// As in the kernels.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

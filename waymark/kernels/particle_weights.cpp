@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
+#include "waymark/kernels/highway_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/particle_weights.cpp"
-// Structs of vectors need a vector size known at compile time; SVE machines run the NEON code.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 // foreach_target.h must come before what is compiled once per target.
 // clang-format off
 #include <hwy/foreach_target.h>

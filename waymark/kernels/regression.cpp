@@ -1,9 +1,9 @@
 #include "waymark/kernels/regression.hpp"
 
+#include "waymark/kernels/highway_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/regression.cpp"
-// Structs of vectors need a vector size known at compile time; SVE machines run the NEON code.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

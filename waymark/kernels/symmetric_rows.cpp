@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "waymark/kernels/highway_targets.hpp"
 #include "waymark/kernels/layout.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "waymark/kernels/highway_targets.hpp"
+
 #ifndef WAYMARK_KERNELS_ZMSSD_PLAIN
 #define WAYMARK_KERNELS_ZMSSD_PLAIN
 namespace waymark::kernels {
@@ -21,8 +23,6 @@ auto& patch_pixel(Patch& patch, int r, int c) {
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "waymark/kernels/zmssd.cpp"
-// Lane counts must be known at compile time; SVE machines run the NEON code.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

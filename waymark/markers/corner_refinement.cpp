@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "waymark/core/principal_axes.hpp"
+
 namespace waymark::markers {
 namespace {
 
@@ -60,7 +62,7 @@ Vector3d line_through(const std::vector<Vector2d>& rays) {
   for (const Vector2d& ray : rays) mean += ray / static_cast<double>(rays.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const Vector2d& ray : rays) scatter += (ray - mean) * (ray - mean).transpose();
-  const Vector2d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+  const Vector2d normal = principal_axes(scatter).directions.col(0);
   return {normal.x(), normal.y(), -normal.dot(mean)};
 }
 

@@ -1,29 +1,43 @@
 #include "waymark/markers/homography.hpp"
 
-#include <Eigen/LU>
+#include <cmath>
 
 namespace waymark::markers {
+namespace {
+
+double area_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// No three of the points are on a line.
+bool is_quadrangle(const Corners& points) {
+  constexpr double kFlat = 1e-12;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d to_next = points[(i + 1) % 4] - points[i],
+                          to_last = points[(i + 3) % 4] - points[i];
+    const double scale = to_next.squaredNorm() + to_last.squaredNorm();
+    if (!(std::abs(area_of(to_next, to_last)) > kFlat * scale)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 Corners corners_of_square(double side) {
   const double h = 0.5 * side;
   return {Eigen::Vector2d(-h, -h), Eigen::Vector2d(h, -h), Eigen::Vector2d(h, h), Eigen::Vector2d(-h, h)};
 }
 
+// Heckbert, "Fundamentals of texture mapping and image warping", 1989, section 2.2.3: from the square (0, 0)
+// to (1, 1).
 std::optional<Eigen::Matrix3d> homography_of_square(const Corners& points, double side) {
-  Eigen::Matrix<double, 8, 8> A;
-  Eigen::Matrix<double, 8, 1> b;
-  const Corners corners = corners_of_square(side);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double x = corners[i].x(), y = corners[i].y(), u = points[i].x(), v = points[i].y();
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    A.row(row) << x, y, 1.0, 0.0, 0.0, 0.0, -u * x, -u * y;
-    A.row(row + 1) << 0.0, 0.0, 0.0, x, y, 1.0, -v * x, -v * y;
-    b.segment<2>(row) = points[i];
-  }
-  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> lu(A);
-  if (!lu.isInvertible()) return std::nullopt;
-  const Eigen::Matrix<double, 8, 1> h = lu.solve(b);
-  return Eigen::Matrix3d{{h[0], h[1], h[2]}, {h[3], h[4], h[5]}, {h[6], h[7], 1.0}};
+  if (!is_quadrangle(points)) return std::nullopt;
+  const Eigen::Vector2d d1 = points[1] - points[2], d2 = points[3] - points[2];
+  const Eigen::Vector2d s = points[0] - points[1] + points[2] - points[3];
+  const double g = area_of(s, d2) / area_of(d1, d2), h = area_of(d1, s) / area_of(d1, d2);
+  const Eigen::Vector2d a = points[1] - points[0] + g * points[1], b = points[3] - points[0] + h * points[3];
+  const Eigen::Matrix3d of_unit{{a.x(), b.x(), points[0].x()}, {a.y(), b.y(), points[0].y()}, {g, h, 1.0}};
+  const Eigen::Matrix3d to_unit{{1.0 / side, 0.0, 0.5}, {0.0, 1.0 / side, 0.5}, {0.0, 0.0, 1.0}};
+  const Eigen::Matrix3d H = of_unit * to_unit;
+  return H / H(2, 2);
 }
 
 }  // namespace waymark::markers

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
+#include "waymark/core/principal_axes.hpp"
+#include "waymark/core/solve_symmetric.hpp"
 #include "waymark/markers/homography.hpp"
 
 namespace waymark::markers {
@@ -36,15 +36,21 @@ std::optional<Corners> rays_through(const Camera& camera, const Corners& corners
   return rays;
 }
 
+/// The least turn that takes the z axis to a direction, not that against it.
+Matrix3d turn_from_z(const Vector3d& to) {
+  const double s = std::sqrt(2.0 * (1.0 + to.z()));
+  return Eigen::Quaterniond(0.5 * s, -to.y() / s, to.x() / s, 0.0).toRotationMatrix();
+}
+
 /// The two poses whose view of the marker's middle agrees with the homography to first order.
 std::optional<std::array<MarkerPose, 2>> decompose(const Matrix3d& H) {
   const Vector2d v = H.block<2, 1>(0, 2);
   const Matrix2d J = H.topLeftCorner<2, 2>() - v * H.block<1, 2>(2, 0);
   const Vector3d towards(v.x(), v.y(), 1.0);
-  const Matrix3d R_v = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), towards).toRotationMatrix();
+  const Matrix3d R_v = turn_from_z(towards.normalized());
   const Matrix2d B = R_v.topLeftCorner<2, 2>() - v * R_v.block<1, 2>(2, 0);
   const Matrix2d A = B.inverse() * J;
-  const double inverse_depth = Eigen::JacobiSVD<Matrix2d>(A).singularValues()[0];
+  const double inverse_depth = std::sqrt(principal_axes(A.transpose() * A).variances[1]);
   if (!(inverse_depth > 0.0) || !(A.determinant() > 0.0)) return std::nullopt;
   const Matrix2d R22 = A / inverse_depth;
   const Matrix2d rest = Matrix2d::Identity() - R22.transpose() * R22;
@@ -89,7 +95,7 @@ std::optional<Vector6d> assess(const Camera& camera, const Vector8d& z, const Ma
   const Eigen::Matrix<double, 6, 8> JtW = expected->dpixels_dpose.transpose() * W;
   pose.error = r.dot(W * r);
   pose.information = JtW * expected->dpixels_dpose;
-  return pose.information.ldlt().solve(JtW * r);
+  return solve_symmetric(pose.information, JtW * r);
 }
 
 /// Gauss-Newton; a step that makes it worse is halved.
@@ -141,7 +147,7 @@ std::optional<MarkerPoses> estimate_marker_poses(const Camera& camera, const Ref
   const auto starts = H ? decompose(*H) : std::nullopt;
   if (!starts) return std::nullopt;
   const Vector8d z = stacked(corners.corners_px);
-  const Matrix8d W = corners.covariance.inverse();
+  const Matrix8d W = solve_symmetric(corners.covariance, Matrix8d::Identity());
   const auto first = refine(camera, z, W, size_m, (*starts)[0]);
   const auto second = refine(camera, z, W, size_m, (*starts)[1]);
   if (!first || !second) return std::nullopt;

@@ -11,7 +11,6 @@
 #include "waymark/io/json_text.hpp"
 #include "waymark/report/micros.hpp"
 #include "waymark/report/rounded.hpp"
-#include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
 namespace {

@@ -8,7 +8,6 @@
 #include "waymark/report/article_times.hpp"
 #include "waymark/report/micros.hpp"
 #include "waymark/report/path_series.hpp"
-#include "waymark/slam/make_filter.hpp"
 
 namespace waymark {
 namespace {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "waymark/io/image_loader.hpp"
+#include "waymark/io/open_source.hpp"
 #include "waymark/sim/simulation.hpp"
 
 namespace waymark {
@@ -69,6 +70,8 @@ void put_sensor_at_camera(Config& config) {
 }
 
 }  // namespace
+
+const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
 
 Schema describe(Config& config) {
   Schema schema;

@@ -10,24 +10,26 @@
 #include "waymark/association/gate.hpp"
 #include "waymark/core/config.hpp"
 #include "waymark/core/source.hpp"
-#include "waymark/ekf/ekf_slam.hpp"
-#include "waymark/ekf/pixel_slam.hpp"
-#include "waymark/fastslam/fast_slam.hpp"
-#include "waymark/io/open_source.hpp"
+#include "waymark/ekf/ekf_options.hpp"
+#include "waymark/ekf/pixel_slam_options.hpp"
+#include "waymark/fastslam/fast_slam_options.hpp"
+#include "waymark/io/input_options.hpp"
 #include "waymark/markers/marker_options.hpp"
 #include "waymark/models/camera.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/odometry.hpp"
 #include "waymark/sim/options.hpp"
 #include "waymark/slam/map_options.hpp"
-#include "waymark/slam/pipeline.hpp"
+#include "waymark/slam/pipeline_options.hpp"
 #include "waymark/slam/smooth_options.hpp"
-#include "waymark/vision/search.hpp"
-#include "waymark/vision/tracker.hpp"
+#include "waymark/vision/search_options.hpp"
+#include "waymark/vision/tracker_options.hpp"
 
 namespace waymark {
 
 enum class FilterKind { kEkf, kFastSlam };
+[[nodiscard]] const char* filter_name(FilterKind kind);
+
 enum class Association {
   kKnown,    ///< by their identities
   kNearest,  ///< EKF: those without identity pair by pair, the likeliest first

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "waymark/core/filter.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/stamp.hpp"
-#include "waymark/vision/tracker.hpp"
+#include "waymark/vision/look.hpp"
 
 namespace waymark {
 

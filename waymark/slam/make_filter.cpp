@@ -1,6 +1,7 @@
 #include "waymark/slam/make_filter.hpp"
 
 #include "waymark/ekf/localizer.hpp"
+#include "waymark/fastslam/fast_slam.hpp"
 
 namespace waymark {
 namespace {
@@ -121,7 +122,5 @@ Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& conf
   if (config.observe != Observe::kMarkers) return std::unique_ptr<MarkerFrontEnd>();
   return MarkerFrontEnd::make(config.markers, Camera(config.camera));
 }
-
-const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
 
 }  // namespace waymark

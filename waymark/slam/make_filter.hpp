@@ -5,6 +5,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/config.hpp"
+#include "waymark/slam/marker_front_end.hpp"
 
 namespace waymark {
 
@@ -23,7 +24,5 @@ namespace waymark {
 
 /// What finds markers in pictures where they are asked for, or why it cannot; null where they are not.
 [[nodiscard]] Result<std::unique_ptr<MarkerFrontEnd>> make_marker_front_end(const Config& config);
-
-[[nodiscard]] const char* filter_name(FilterKind kind);
 
 }  // namespace waymark

@@ -13,27 +13,11 @@
 #include "waymark/slam/camera_front_end.hpp"
 #include "waymark/slam/marker_front_end.hpp"
 #include "waymark/slam/odometer.hpp"
+#include "waymark/slam/pipeline_counts.hpp"
+#include "waymark/slam/pipeline_options.hpp"
 #include "waymark/slam/release_horizon.hpp"
 
 namespace waymark {
-
-/// Which part of what the log holds is used.
-enum class Observe { kRangeBearing, kRange, kBearing, kPixel, kMarkers };
-
-/// Whether every sighting has a range and a bearing.
-[[nodiscard]] constexpr bool tells_place(Observe observe) {
-  return observe == Observe::kRangeBearing || observe == Observe::kMarkers;
-}
-
-/// Whether it shows how large the world is: ranges whose scale is known.
-[[nodiscard]] bool tells_size(Observe observe, const SensorErrors& errors);
-
-struct PipelineOptions {
-  double reorder_window_s = 0.5;  ///< how late an event may arrive and still be put in its place
-  double max_hold_s = 2.0;        ///< how long the last speed is believed when odometry is missing
-};
-
-void describe(Schema& schema, PipelineOptions& options);
 
 /// What looks into pictures, if anything; neither: pictures are ignored. Both must outlive who uses them.
 struct FrontEnds {
@@ -54,24 +38,6 @@ struct Step {
   const Correction* correction = nullptr;     ///< null: nothing was observed. Valid during the call only.
   const GreyImage* picture = nullptr;         ///< what the front end looked into, if anything. Likewise.
   Duration cpu{0};  ///< of this thread, where something was observed: from prediction to correction
-};
-
-/// What was not used, and why.
-struct PipelineCounts {
-  std::int64_t events = 0;
-  std::int64_t observations = 0;
-  std::int64_t late = 0;             ///< stamped before what was already processed
-  std::int64_t unusable = 0;         ///< not finite or outside the sensor's limits
-  std::int64_t wrong_kind = 0;       ///< lacks what --observe asks for
-  std::int64_t other_odometry = 0;   ///< of a second kind or a second device
-  std::int64_t other_robots = 0;     ///< events of another robot than the first event's
-  std::int64_t robots_seen = 0;      ///< observations of other robots, which are no landmarks
-  std::int64_t before_odometry = 0;  ///< observed before the first odometry: used, at the start pose
-  std::int64_t pictures = 0;         ///< looked into
-  std::int64_t outlines = 0;         ///< of these what another program looked into: corners of markers
-  std::int64_t misfits = 0;          ///< pictures without pixels or of another size than the camera's
-  std::int64_t repeats = 0;          ///< pictures with the stamp or all the pixels of the one before
-  int odometry_gaps = 0;
 };
 
 /// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "waymark/slam/make_filter.hpp"
+#include "waymark/slam/pipeline.hpp"
 
 namespace waymark {
 namespace {

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "waymark/core/filter.hpp"
+#include "waymark/core/function_blocks.hpp"
 #include "waymark/core/trajectory.hpp"
 #include "waymark/slam/config.hpp"
 #include "waymark/slam/film_strip.hpp"
+#include "waymark/slam/pipeline_counts.hpp"
+#include "waymark/vision/tracker_counts.hpp"
 
 namespace waymark {
 

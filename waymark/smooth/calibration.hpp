@@ -5,7 +5,7 @@
 #include "waymark/core/calibration.hpp"
 #include "waymark/core/pose2.hpp"
 #include "waymark/models/landmark_sensor.hpp"
-#include "waymark/slam/pipeline.hpp"
+#include "waymark/slam/pipeline_options.hpp"
 #include "waymark/slam/smooth_options.hpp"
 
 namespace waymark::smooth {

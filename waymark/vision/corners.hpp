@@ -7,6 +7,7 @@
 #include "waymark/core/config.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/kernels/fast_corners.hpp"
+#include "waymark/vision/corner_options.hpp"
 
 namespace waymark::vision {
 
@@ -25,14 +26,6 @@ struct Corner {
 
   friend bool operator==(const Corner&, const Corner&) = default;
 };
-
-struct CornerOptions {
-  int threshold = 20;  ///< grey levels, 1 to 254
-  int arc = 12;        ///< pixels of the circle of 16, 9 to 12
-  kernels::Instructions instructions = kernels::Instructions::kSimd;
-};
-
-void describe(Schema& schema, CornerOptions& options);
 
 /// FAST corners (Rosten and Drummond 2006) that score more than their eight neighbours. With arc 9 these are
 /// the corners and responses of OpenCV's detector.

@@ -2,18 +2,13 @@
 
 #include "waymark/core/expectation.hpp"
 #include "waymark/models/camera.hpp"
+#include "waymark/vision/finder_options.hpp"
 #include "waymark/vision/frame_budget.hpp"
 #include "waymark/vision/look.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/visual_memory.hpp"
 
 namespace waymark::vision {
-
-struct FinderOptions {
-  int patch_px = 16;
-  bool warp = true;      ///< to the viewpoint; otherwise patches stay as they were cut
-  bool subpixel = true;  ///< otherwise places are known to the whole pixel
-};
 
 /// Where a landmark was found, or what came of looking for it.
 struct Finding {

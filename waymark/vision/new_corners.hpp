@@ -10,20 +10,9 @@
 #include "waymark/core/grey_image.hpp"
 #include "waymark/vision/corners.hpp"
 #include "waymark/vision/frame_budget.hpp"
+#include "waymark/vision/new_corner_options.hpp"
 
 namespace waymark::vision {
-
-/// Where and when new landmarks are wanted.
-struct NewCornerOptions {
-  int wanted = 24;          ///< features in view: with fewer, new ones are looked for
-  int most_candidates = 8;  ///< under way at a time
-  int most_new = 4;         ///< in one picture
-  int columns = 4;          ///< of cells
-  int rows = 3;
-  double distance_px = 20.0;  ///< from any other feature
-};
-
-void describe(Schema& schema, NewCornerOptions& options);
 
 /// The smaller eigenvalue of sum grad grad^T over the patch around (u, v), which must fit into the image with
 /// a pixel to spare (Shi and Tomasi 1994): how well the place of the patch can be told in every direction.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "waymark/core/principal_axes.hpp"
 
 namespace waymark::vision {
 namespace {
@@ -48,9 +49,9 @@ double zmssd_of_contrast(const ImageView& image, const Patch& patch, int u, int 
 
 /// With eigenvalues of at least `least`.
 Eigen::Matrix2d floored(const Eigen::Matrix2d& R, double least) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(R);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).asDiagonal() *
-         eigen.eigenvectors().transpose();
+  const auto [variances, directions] = principal_axes(R);
+  if (variances[0] >= least) return R;
+  return directions * variances.cwiseMax(least).asDiagonal() * directions.transpose();
 }
 
 }  // namespace

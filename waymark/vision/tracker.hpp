@@ -17,33 +17,16 @@
 #include "waymark/vision/match_order.hpp"
 #include "waymark/vision/new_corners.hpp"
 #include "waymark/vision/search.hpp"
+#include "waymark/vision/tracker_counts.hpp"
+#include "waymark/vision/tracker_options.hpp"
 #include "waymark/vision/visual_memory.hpp"
 
 namespace waymark::vision {
-
-struct TrackerOptions {
-  int most_observed = 30;  ///< landmarks looked for in one picture
-  FinderOptions finder;
-  CornerOptions corners;
-  NewCornerOptions new_corners;
-  FrameBudgetOptions budget;
-  kernels::Instructions instructions = kernels::Instructions::kSimd;
-};
-
-/// Adds `tracker.` and `corners.` keys.
-void describe(Schema& schema, TrackerOptions& options);
 
 /// What was found in a picture, and what was looked for in vain. Views into the tracker.
 struct Sightings {
   std::span<const Observation> found;
   std::span<const LandmarkId> missed;
-};
-
-/// What happened since the tracker was made.
-struct TrackerCounts {
-  std::int64_t pictures = 0;
-  std::int64_t unusable = 0;       ///< pictures that showed nothing, or were of another size
-  std::int64_t out_of_budget = 0;  ///< pictures in which something was left out for want of time
 };
 
 /// The camera front end: remembers what landmarks look like, looks for them where they are expected, and

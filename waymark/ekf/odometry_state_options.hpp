@@ -1,0 +1,20 @@
+#pragma once
+
+#include "waymark/core/config.hpp"
+#include "waymark/models/odometry_errors.hpp"
+
+namespace waymark {
+
+/// What may be wrong with the odometry always, and is estimated beside path and map.
+struct OdometryStateOptions {
+  bool estimate = false;
+  double speed_scale_sigma = 0.1;
+  double turn_scale_sigma = 0.1;
+  double turn_bias_sigma_degps = 0.1;
+
+  [[nodiscard]] OdometryErrors sigmas() const;
+};
+
+void describe(Schema& schema, OdometryStateOptions& options);
+
+}  // namespace waymark

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "waymark/core/config.hpp"
+#include "waymark/ekf/depth_prior.hpp"
+
+namespace waymark {
+
+namespace ekf {
+
+/// When a point that was seen once takes part in the estimate.
+enum class Initialization {
+  kDelayed,       ///< once particles have found out its depth, as a ray (Davison 2003)
+  kInverseDepth,  ///< at once, as a ray of unsure depth (Civera, Davison, Montiel 2008)
+  kArticle        ///< once particles have found out its depth, as a point (Vincke et al. 2012)
+};
+
+}  // namespace ekf
+
+struct PixelSlamOptions {
+  int capacity = 100;                ///< most landmarks in the map
+  double sigma_px = 0.5;             ///< of pixels that came without covariance
+  double model_sigma_px = 0.1;       ///< what every pixel is off besides, anew in every picture
+  double wander_px = 0.1;            ///< how far a patch wanders while the view of it turns by 1 deg
+  double vibration_deg = 0.05;       ///< of the camera's pitch and roll, anew in every picture
+  double gate_probability = 0.9999;  ///< part of the true sightings that may pass
+  ekf::Initialization init = ekf::Initialization::kDelayed;
+  ekf::DepthPrior depth;
+  int most_candidates = 8;
+  int least_pictures = 8;    ///< in which a candidate is seen before it is accepted at all
+  int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
+  double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
+};
+
+void describe(Schema& schema, PixelSlamOptions& options);
+
+}  // namespace waymark

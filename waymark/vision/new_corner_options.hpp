@@ -1,0 +1,19 @@
+#pragma once
+
+#include "waymark/core/config.hpp"
+
+namespace waymark::vision {
+
+/// Where and when new landmarks are wanted.
+struct NewCornerOptions {
+  int wanted = 24;          ///< features in view: with fewer, new ones are looked for
+  int most_candidates = 8;  ///< under way at a time
+  int most_new = 4;         ///< in one picture
+  int columns = 4;          ///< of cells
+  int rows = 3;
+  double distance_px = 20.0;  ///< from any other feature
+};
+
+void describe(Schema& schema, NewCornerOptions& options);
+
+}  // namespace waymark::vision

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "waymark/core/config.hpp"
+#include "waymark/kernels/instructions.hpp"
+#include "waymark/vision/corner_options.hpp"
+#include "waymark/vision/finder_options.hpp"
+#include "waymark/vision/frame_budget.hpp"
+#include "waymark/vision/new_corner_options.hpp"
+
+namespace waymark::vision {
+
+struct TrackerOptions {
+  int most_observed = 30;  ///< landmarks looked for in one picture
+  FinderOptions finder;
+  CornerOptions corners;
+  NewCornerOptions new_corners;
+  FrameBudgetOptions budget;
+  kernels::Instructions instructions = kernels::Instructions::kSimd;
+};
+
+/// Adds `tracker.` and `corners.` keys.
+void describe(Schema& schema, TrackerOptions& options);
+
+}  // namespace waymark::vision
