@@ -42,6 +42,31 @@ function(waymark_folder name)
   set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
 endfunction()
 
+# waymark_module(<name> FOLDER <folder> SOURCES <files...> LIBRARIES <imported targets...>)
+# The module waymark-<name>.so, which load_module() of waymark/core/module.hpp opens: at the top of the build tree, beside
+# the programs, and installed in lib/waymark/. It includes what <folder> can, but is linked with headers only: what is not
+# inline is in the program that loads it. Its target is waymark_module_<name>.
+function(waymark_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER" "SOURCES;LIBRARIES")
+  waymark_check_arguments("waymark_module(${name})")
+  set(target waymark_module_${name})
+  add_library(${target} MODULE ${arg_SOURCES})
+  set_target_properties(
+    ${target}
+    PROPERTIES OUTPUT_NAME waymark-${name}
+               PREFIX ""
+               SUFFIX .so
+               LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}"
+               CXX_VISIBILITY_PRESET hidden
+               VISIBILITY_INLINES_HIDDEN ON)
+  target_include_directories(${target}
+                             PRIVATE $<TARGET_PROPERTY:waymark_${arg_FOLDER},INTERFACE_INCLUDE_DIRECTORIES>)
+  target_compile_definitions(${target} PRIVATE WAYMARK_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  waymark_warnings(${target})
+  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/waymark")
+endfunction()
+
 # waymark_program(<name> SOURCES <files...> DEPENDS <folders...> LIBRARIES <imported targets...> BATCH <number of files>
 #   ALONE <files...>)
 # A program that lands at the top of the build tree; its target is waymark_program_<name>.

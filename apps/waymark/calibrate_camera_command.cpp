@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "waymark/calibrate/camera_calibration.hpp"
+#include "waymark/calibrate/opencv.hpp"
 #include "waymark/io/camera_yaml.hpp"
 #include "waymark/io/files.hpp"
 #include "waymark/report/camera_report.hpp"
@@ -46,7 +47,9 @@ Error no_chessboard() {
 /// The board that was asked for, or the chessboard that the pictures show.
 Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOptions& options) {
   auto board = calibrate::make_board(request.board);
-  if (!board || board->size() > 0) return board;
+  if (!board) return board;
+  if (const auto opencv = calibrate::load_opencv("calibrate camera"); !opencv) return opencv.error();
+  if (board->size() > 0) return board;
   const auto corners = guess(request, options);
   if (!corners) return no_chessboard();
   if (request.verbosity.talks())

@@ -1,6 +1,7 @@
 #include "waymark/calibrate/video.hpp"
 
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <opencv2/videoio.hpp>
@@ -29,6 +30,15 @@ TEST(Video, GivesFiveFramesASecondInGrey) {
   }
   EXPECT_EQ(frames, 10);
   EXPECT_DOUBLE_EQ((*video)->progress(), 1.0);
+  std::filesystem::remove(path);
+}
+
+TEST(Video, ThatNobodyCanDecodeIsRefused) {
+  const auto path = std::filesystem::temp_directory_path() / "waymark_video_test.txt";
+  std::ofstream(path) << "no video\n";
+  const auto video = open_video(path);
+  ASSERT_FALSE(video);
+  EXPECT_NE(video.error().message.find("nor a video that can be decoded"), std::string::npos);
   std::filesystem::remove(path);
 }
 

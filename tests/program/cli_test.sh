@@ -368,7 +368,9 @@ refuses 2 '--corners 9' calibrate camera room/images --corners 9
 refuses 2 '--squares' calibrate camera room/images --board charuco
 refuses 2 '--board circles' calibrate camera room/images --board circles
 refuses 2 'unknown key' calibrate camera room/images --set input.image=x
-if "$waymark" calibrate camera room/images 2>&1 | grep -q 'lacks'; then
+WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera room/images
+WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera x.mat
+if "$waymark" calibrate camera room/images 2>&1 | grep -q 'is not installed'; then
   echo 'SKIPPED: this build has no OpenCV'
 else
   refuses 2 'is neither a picture' calibrate camera x.mat

@@ -22,11 +22,11 @@ class BoardFinder {
   [[nodiscard]] virtual std::optional<BoardCorners> find(const ImageView& image) = 0;
 };
 
-/// A finder, or that this build has no OpenCV.
+/// A finder, or that OpenCV's module is missing.
 [[nodiscard]] Result<std::unique_ptr<BoardFinder>> make_board_finder(const Board& board);
 
 /// The inner corners of the largest chessboard in a picture, the longer side first; nothing where there is
-/// none, or without OpenCV. Some 20 ms.
+/// none, or without OpenCV's module. Some 20 ms.
 [[nodiscard]] std::optional<GridSize> guess_chessboard(const ImageView& image);
 
 }  // namespace waymark::calibrate

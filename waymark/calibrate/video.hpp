@@ -7,8 +7,8 @@
 
 namespace waymark::calibrate {
 
-/// The frames of a video, kFramesPerSecond of them; an error where OpenCV knows no such video or is not in
-/// this build.
+/// The frames of a video, kFramesPerSecond of them; an error where OpenCV knows no such video or its module
+/// is missing.
 [[nodiscard]] Result<std::unique_ptr<PictureSource>> open_video(const std::filesystem::path& path);
 
 }  // namespace waymark::calibrate
