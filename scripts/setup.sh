@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing to build Waymark on Debian 12; --dev adds what tests and checks need. Quick, without root and
-# without network, when nothing is missing.
+# Installs what is missing to build Waymark on Debian 12. --opencv adds what `waymark calibrate camera` finds boards and reads
+# videos with; --dev adds that and what tests and checks need. Quick, without root and without network, when nothing is
+# missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,8 +9,9 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
   libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev libnlopt-dev
-  libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev libapriltag-dev
+  libapriltag-dev
 )
+opencv_packages=(libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev)
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git
   libopenmpi-dev openmpi-bin
@@ -19,8 +21,9 @@ dev_packages=(
 
 case "${1:-}" in
   "") ;;
-  --dev) packages+=("${dev_packages[@]}") ;;
-  *) echo "usage: setup.sh [--dev]" >&2; exit 2 ;;
+  --opencv) packages+=("${opencv_packages[@]}") ;;
+  --dev) packages+=("${opencv_packages[@]}" "${dev_packages[@]}") ;;
+  *) echo "usage: setup.sh [--opencv | --dev]" >&2; exit 2 ;;
 esac
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

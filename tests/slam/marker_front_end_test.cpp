@@ -16,13 +16,6 @@ using testing::IsEmpty;
 
 constexpr double kSize_m = 0.2;
 
-class MarkerFrontEndTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!markers::can_detect(markers::MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
-  }
-};
-
 markers::MarkerOptions marker_options(bool own_thread = true) {
   return {.dictionary = "4x4_50", .size_m = kSize_m, .own_thread = own_thread};
 }
@@ -53,7 +46,7 @@ std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEn
   return numbers;
 }
 
-TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {
+TEST(MarkerFrontEnd, SeesEveryMarkerOnce) {
   for (const bool own_thread : {true, false}) {
     const auto front_end = *MarkerFrontEnd::make(marker_options(own_thread), Camera(test::marker_camera()));
     EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.3, 2.0)}, {7, at(0.3, 1.5)}})), ElementsAre(3, 7));
@@ -63,14 +56,14 @@ TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, TrustsNeitherOfTwoWithOneNumber) {
+TEST(MarkerFrontEnd, TrustsNeitherOfTwoWithOneNumber) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
               ElementsAre(5));
   EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("marker 3 is twice in 1 pictures")));
 }
 
-TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
+TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
   markers::MarkerOptions options = marker_options();
   options.confirm = 3;
   const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
@@ -84,7 +77,7 @@ TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
   EXPECT_THAT(front_end->notes(), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
 }
 
-TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
+TEST(MarkerFrontEnd, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   const auto first = picture_of({{1, at(0.0, 2.0)}}), second = picture_of({{2, at(0.0, 2.0)}});
   for (const auto& picture : {first, second, first}) front_end->announce(picture);
@@ -93,7 +86,7 @@ TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   EXPECT_EQ(front_end->see(first)[0].id->number, 1);
 }
 
-TEST_F(MarkerFrontEndTest, TakesCornersThatOthersFound) {
+TEST(MarkerFrontEnd, TakesCornersThatOthersFound) {
   const Camera camera(test::marker_camera());
   const auto front_end = *MarkerFrontEnd::make(marker_options(), camera);
   const auto picture = picture_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
@@ -117,7 +110,7 @@ TEST_F(MarkerFrontEndTest, TakesCornersThatOthersFound) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, RefusesCornersOfMarkersOfUnknownSize) {
+TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
   markers::MarkerOptions options = marker_options();
   options.size_m = 0.0;
   options.sizes_m = "3: 0.2";
@@ -127,7 +120,7 @@ TEST_F(MarkerFrontEndTest, RefusesCornersOfMarkersOfUnknownSize) {
   EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("nobody said how large")));
 }
 
-TEST_F(MarkerFrontEndTest, EndsWhilePicturesWait) {
+TEST(MarkerFrontEnd, EndsWhilePicturesWait) {
   const auto picture = picture_of({{1, at(0.0, 2.0)}});
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   for (int i = 0; i < 20; ++i) front_end->announce(picture);
@@ -164,7 +157,7 @@ Result<Recording> drive(const std::vector<std::string>& assignments, double seco
   return record(*opened->source, opened->config, {0.0, seconds});
 }
 
-TEST_F(MarkerFrontEndTest, PutsTheMarkersOfARoomOnTheMap) {
+TEST(MarkerFrontEnd, PutsTheMarkersOfARoomOnTheMap) {
   for (const char* filter : {"ekf", "fastslam"}) {
     const auto recording = drive({std::string("filter=") + filter});
     ASSERT_TRUE(recording.ok());
@@ -182,7 +175,7 @@ TEST_F(MarkerFrontEndTest, PutsTheMarkersOfARoomOnTheMap) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, AThreadOfItsOwnChangesNothing) {
+TEST(MarkerFrontEnd, AThreadOfItsOwnChangesNothing) {
   const auto with = drive({"markers.own_thread=true"}, 3.0),
              without = drive({"markers.own_thread=false"}, 3.0);
   ASSERT_TRUE(with.ok() && without.ok());
@@ -193,7 +186,7 @@ TEST_F(MarkerFrontEndTest, AThreadOfItsOwnChangesNothing) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, BlocksStandInTheTableOfTheRun) {
+TEST(MarkerFrontEnd, BlocksStandInTheTableOfTheRun) {
   const auto recording = drive({}, 1.0);
   ASSERT_TRUE(recording.ok());
   std::vector<std::string> names;
@@ -201,7 +194,7 @@ TEST_F(MarkerFrontEndTest, BlocksStandInTheTableOfTheRun) {
   EXPECT_THAT(names, testing::IsSupersetOf({"find markers", "measure markers", "FB6 estimate"}));
 }
 
-TEST_F(MarkerFrontEndTest, ALogWithoutPicturesIsAnError) {
+TEST(MarkerFrontEnd, ALogWithoutPicturesIsAnError) {
   const auto recording =
       drive({"observe=markers", "markers.dictionary=4x4_50", "markers.size_m=0.2"}, 4.0, "study");
   ASSERT_TRUE(recording.ok());
