@@ -1,6 +1,6 @@
-# OpenCV finds ArUco markers and calibration boards, reads videos, and is something that tests compare with; libapriltag
-# finds AprilTags. Everything else builds and runs without them. OpenCV's modules are named one by one, because its
-# package names all of them.
+# OpenCV finds calibration boards and reads videos, in a module that is loaded at run time, and is something that tests and
+# benchmarks compare with; libapriltag finds AprilTags. Everything else builds and runs without them. OpenCV's modules are
+# named one by one, because its package names all of them.
 
 # waymark_find_modules(<name> <header> <libraries...>): WAYMARK_<name>_LIBRARIES are paths and WAYMARK_<name>_INCLUDE is
 # the folder of the header where all are there; otherwise WAYMARK_<name>_FOUND is false. Paths, unlike targets, need
@@ -23,20 +23,14 @@ function(waymark_find_modules name header)
   set(WAYMARK_${name}_LIBRARIES "${paths}" PARENT_SCOPE)
 endfunction()
 
-set(WAYMARK_ARUCO_FOUND FALSE)
 set(WAYMARK_APRILTAG_FOUND FALSE)
 set(WAYMARK_BOARDS_FOUND FALSE)
-set(WAYMARK_BOARDS_LIBRARIES "")
 if(WAYMARK_WITH_OPENCV)
-  waymark_find_modules(ARUCO opencv2/aruco.hpp opencv_aruco opencv_calib3d opencv_imgproc opencv_core)
-  if(NOT WAYMARK_ARUCO_FOUND)
-    message(STATUS "OpenCV's aruco, calib3d, imgproc or core is missing: built without ArUco markers")
-  endif()
   waymark_find_modules(BOARDS opencv2/aruco/charuco.hpp opencv_aruco opencv_calib3d opencv_imgproc opencv_videoio
                        opencv_core)
   if(NOT WAYMARK_BOARDS_FOUND)
-    set(WAYMARK_BOARDS_LIBRARIES "")
-    message(STATUS "OpenCV's aruco, calib3d, imgproc, videoio or core is missing: built without camera calibration")
+    message(STATUS "OpenCV's aruco, calib3d, imgproc, videoio or core is missing: built without camera calibration "
+                   "(scripts/setup.sh --opencv)")
   endif()
 endif()
 if(WAYMARK_WITH_APRILTAG)
@@ -46,12 +40,16 @@ if(WAYMARK_WITH_APRILTAG)
   endif()
 endif()
 
-# waymark_opencv_features exists where OpenCV's corner detector is there to compare with.
+# Where they are there to compare with: waymark_opencv_features, its corner detector, and waymark_opencv_aruco, its markers.
 if(WAYMARK_BUILD_TESTS OR WAYMARK_BUILD_BENCH)
-  waymark_find_modules(OPENCV_FEATURES opencv2/features2d.hpp opencv_features2d opencv_imgproc opencv_core)
-  if(WAYMARK_OPENCV_FEATURES_FOUND)
-    add_library(waymark_opencv_features INTERFACE)
-    target_include_directories(waymark_opencv_features SYSTEM INTERFACE "${WAYMARK_OPENCV_FEATURES_INCLUDE}")
-    target_link_libraries(waymark_opencv_features INTERFACE ${WAYMARK_OPENCV_FEATURES_LIBRARIES})
-  endif()
+  foreach(oracle IN ITEMS "features;opencv2/features2d.hpp;opencv_features2d" "aruco;opencv2/aruco.hpp;opencv_aruco")
+    list(POP_FRONT oracle name header library)
+    string(TOUPPER "OPENCV_${name}" found)
+    waymark_find_modules(${found} ${header} ${library} opencv_imgproc opencv_core)
+    if(WAYMARK_${found}_FOUND)
+      add_library(waymark_opencv_${name} INTERFACE)
+      target_include_directories(waymark_opencv_${name} SYSTEM INTERFACE "${WAYMARK_${found}_INCLUDE}")
+      target_link_libraries(waymark_opencv_${name} INTERFACE ${WAYMARK_${found}_LIBRARIES})
+    endif()
+  endforeach()
 endif()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing to build Waymark on Debian 12; --dev adds what tests and checks need, --pages only what bundling
-# pages needs (scripts/pages.sh). Quick, without root and without network, when nothing is missing.
+# Installs what is missing to build Waymark on Debian 12. --opencv adds what `waymark calibrate camera` finds boards and reads
+# videos with, --pages what bundling pages needs (scripts/pages.sh), --dev both and what tests and checks need; --list only
+# names the packages of the option after it. Quick, without root and without network, when nothing is missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,8 +9,9 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libyaml-cpp-dev nlohmann-json3-dev
   libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev libnlopt-dev
-  libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev libapriltag-dev
+  libapriltag-dev
 )
+opencv_packages=(libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev)
 dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git python3
   libopenmpi-dev openmpi-bin
@@ -17,16 +19,27 @@ dev_packages=(
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
 )
 
+list=no
+if [ "${1:-}" = --list ]; then
+  list=yes
+  shift
+fi
 pages=no
 case "${1:-}" in
   "") ;;
-  --dev) packages+=("${dev_packages[@]}") pages=yes ;;
+  --opencv) packages+=("${opencv_packages[@]}") ;;
   --pages) pages=yes ;;
-  *) echo "usage: setup.sh [--dev|--pages]" >&2; exit 2 ;;
+  --dev) packages+=("${opencv_packages[@]}" "${dev_packages[@]}") pages=yes ;;
+  *) echo "usage: setup.sh [--list] [--opencv|--pages|--dev]" >&2; exit 2 ;;
 esac
 if [ "$pages" = yes ]; then
   command -v node >/dev/null || packages+=(nodejs)
   command -v npm >/dev/null || packages+=(npm)
+fi
+
+if [ "$list" = yes ]; then
+  printf '%s\n' "${packages[@]}"
+  exit
 fi
 
 missing=()

@@ -134,14 +134,14 @@ bool is_exact(const TwoCameras& split, const std::vector<bool>& is_other) {
 }
 
 /// What became of one set.
-struct Outcome {
+struct SplitOutcome {
   double contrast = 0.0;     ///< 0 where no two groups give a camera each
   double together_px = 0.0;  ///< RMS by one camera
   bool is_exact = false;
 };
 
 /// As calibrate_camera() comes to its two_cameras, whatever the contrast.
-Outcome split(const Scene& scene, int seed) {
+SplitOutcome split(const Scene& scene, int seed) {
   const Photographs photographs = take(scene, seed);
   const auto calibration = calibrate_camera(simulated::chessboard(), simulated::named(photographs.corners));
   if (!calibration) return {};
@@ -150,29 +150,29 @@ Outcome split(const Scene& scene, int seed) {
   return {found->contrast, found->together_px, is_exact(*found, photographs.is_other)};
 }
 
-std::vector<Outcome> split_all(const Scene& scene, int seeds) {
-  std::vector<Outcome> outcomes(static_cast<std::size_t>(seeds));
+std::vector<SplitOutcome> split_all(const Scene& scene, int seeds) {
+  std::vector<SplitOutcome> outcomes(static_cast<std::size_t>(seeds));
   for_all_runs(seeds, [&](int i) { outcomes[static_cast<std::size_t>(i)] = split(scene, i + 1); });
   return outcomes;
 }
 
-bool is_found(const Outcome& outcome) { return outcome.contrast >= kContrast; }
+bool is_found(const SplitOutcome& outcome) { return outcome.contrast >= kContrast; }
 
-double largest_not_found(const std::vector<Outcome>& outcomes) {
+double largest_not_found(const std::vector<SplitOutcome>& outcomes) {
   double largest = 0.0;
-  for (const Outcome& one : outcomes)
+  for (const SplitOutcome& one : outcomes)
     if (!is_found(one)) largest = std::max(largest, one.contrast);
   return largest;
 }
 
-void print(const std::string& name, const std::vector<Outcome>& outcomes) {
+void print(const std::string& name, const std::vector<SplitOutcome>& outcomes) {
   fmt::print("{:<36}{:>6}{:>8}{:>12.2f}{:>12.2f}", name, outcomes.size(),
              std::ranges::count_if(outcomes, is_found),
-             std::ranges::max(outcomes, {}, &Outcome::contrast).contrast, largest_not_found(outcomes));
+             std::ranges::max(outcomes, {}, &SplitOutcome::contrast).contrast, largest_not_found(outcomes));
 }
 
 /// Which sets of one camera were taken for two.
-void print_found(const std::vector<Outcome>& outcomes) {
+void print_found(const std::vector<SplitOutcome>& outcomes) {
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     if (is_found(outcomes[i]))
       fmt::print("    set {}: contrast {:.2f}, RMS {:.2f} px by one camera\n", i + 1, outcomes[i].contrast,

@@ -7,19 +7,20 @@
 
 #include "waymark/calibrate/simulated_board.hpp"
 
-namespace waymark::calibrate::test {
+namespace waymark::test {
 
-using simulated::chessboard;
-using simulated::named;
-using simulated::Poses;
-using simulated::true_camera;
+using calibrate::simulated::chessboard;
+using calibrate::simulated::named;
+using calibrate::simulated::Poses;
+using calibrate::simulated::true_camera;
 
 /// By a camera and of a board without flaws, but for the noise of corners.
-inline std::vector<BoardCorners> photograph(const Board& board, const CameraOptions& camera,
-                                            std::size_t count, double noise_px, std::uint64_t seed,
-                                            const Poses& poses = {}) {
+inline std::vector<calibrate::BoardCorners> photograph(const calibrate::Board& board,
+                                                       const CameraOptions& camera, std::size_t count,
+                                                       double noise_px, std::uint64_t seed,
+                                                       const Poses& poses = {}) {
   RandomStream random(seed, StreamPurpose::kSimulation);
-  return simulated::photograph(board, camera, count, poses, {.noise_px = noise_px}, random);
+  return calibrate::simulated::photograph(board, camera, count, poses, {.noise_px = noise_px}, random);
 }
 
 /// A chessboard drawn flat: its first inner corner at (u, v), the rows turned by `turn_rad`, its edges
@@ -31,12 +32,12 @@ struct DrawnBoard {
   double turn_rad = 0.1;
   double blur_px = 0.8;
 
-  [[nodiscard]] Eigen::Vector2d corner(const Board& board, int index) const {
+  [[nodiscard]] Eigen::Vector2d corner(const calibrate::Board& board, int index) const {
     return Eigen::Vector2d(u, v) +
            Eigen::Rotation2Dd(turn_rad) * (square_px / board.square_m * board.corner_m(index));
   }
 
-  [[nodiscard]] GreyImage draw(const Board& board, int width_px, int height_px) const {
+  [[nodiscard]] GreyImage draw(const calibrate::Board& board, int width_px, int height_px) const {
     GreyImage image(width_px, height_px, 230);
     for (int y = 0; y < height_px; ++y)
       for (int x = 0; x < width_px; ++x) {
@@ -63,4 +64,4 @@ struct DrawnBoard {
   [[nodiscard]] double window(double x, int corners) const { return step(x + 1.0) * step(corners - x); }
 };
 
-}  // namespace waymark::calibrate::test
+}  // namespace waymark::test

@@ -4,7 +4,8 @@
 #include <cctype>
 
 #include <gmock/gmock.h>
-#include <hwy/targets.h>
+
+#include "waymark/kernels/highway_targets.hpp"
 
 namespace waymark::kernels {
 namespace {

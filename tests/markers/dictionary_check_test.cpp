@@ -30,10 +30,7 @@ std::optional<std::string> verdict(const char* name, const char* dictionary) {
 
 class DictionaryCheckPhotos : public testing::Test {
  protected:
-  void SetUp() override {
-    WAYMARK_REQUIRE_DATA("marker-photos");
-    if (!can_detect(MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
-  }
+  void SetUp() override { WAYMARK_REQUIRE_DATA("marker-photos"); }
 };
 
 TEST_F(DictionaryCheckPhotos, SaysNothingOfTheRightDictionary) {

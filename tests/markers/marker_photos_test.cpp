@@ -48,10 +48,7 @@ std::vector<std::int32_t> range(std::int32_t first, std::int32_t last) {
 
 class ArucoPhotos : public testing::Test {
  protected:
-  void SetUp() override {
-    WAYMARK_REQUIRE_DATA("marker-photos");
-    if (!can_detect(MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
-  }
+  void SetUp() override { WAYMARK_REQUIRE_DATA("marker-photos"); }
 };
 
 TEST_F(ArucoPhotos, SingleMarkers) {

@@ -20,13 +20,6 @@ using testing::IsEmpty;
 
 constexpr double kSize_m = 0.2;
 
-class MarkerFrontEndTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!markers::can_detect(markers::MarkerKind::kAruco)) GTEST_SKIP() << "built without OpenCV";
-  }
-};
-
 markers::MarkerOptions marker_options(bool own_thread = true) {
   return {.dictionary = "4x4_50", .size_m = kSize_m, .own_thread = own_thread};
 }
@@ -91,7 +84,7 @@ TEST(MarkerFinder, ThatCannotStartItsThreadSaysSo) {
   EXPECT_THROW(MarkerFinder(std::make_unique<FearsTheDark>(), true), std::system_error);
 }
 
-TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {
+TEST(MarkerFrontEnd, SeesEveryMarkerOnce) {
   for (const bool own_thread : {true, false}) {
     const auto front_end = *MarkerFrontEnd::make(marker_options(own_thread), Camera(test::marker_camera()));
     EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.3, 2.0)}, {7, at(0.3, 1.5)}})), ElementsAre(3, 7));
@@ -101,14 +94,14 @@ TEST_F(MarkerFrontEndTest, SeesEveryMarkerOnce) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, TrustsNeitherOfTwoWithOneNumber) {
+TEST(MarkerFrontEnd, TrustsNeitherOfTwoWithOneNumber) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
               ElementsAre(5));
   EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("marker 3 is twice in 1 pictures")));
 }
 
-TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
+TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
   markers::MarkerOptions options = marker_options();
   options.confirm = 3;
   const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
@@ -122,7 +115,7 @@ TEST_F(MarkerFrontEndTest, BelievesAnIdentityWhenItLasts) {
   EXPECT_THAT(front_end->notes(), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
 }
 
-TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
+TEST(MarkerFrontEnd, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   const auto first = picture_of({{1, at(0.0, 2.0)}}), second = picture_of({{2, at(0.0, 2.0)}});
   for (const auto& picture : {first, second, first}) front_end->announce(picture);
@@ -131,7 +124,7 @@ TEST_F(MarkerFrontEndTest, PicturesMayBeAnnouncedLongBeforeAndDropped) {
   EXPECT_EQ(front_end->see(first)[0].id->number, 1);
 }
 
-TEST_F(MarkerFrontEndTest, TakesCornersThatOthersFound) {
+TEST(MarkerFrontEnd, TakesCornersThatOthersFound) {
   const Camera camera(test::marker_camera());
   const auto front_end = *MarkerFrontEnd::make(marker_options(), camera);
   const auto picture = picture_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
@@ -155,7 +148,7 @@ TEST_F(MarkerFrontEndTest, TakesCornersThatOthersFound) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, RefusesCornersOfMarkersOfUnknownSize) {
+TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
   markers::MarkerOptions options = marker_options();
   options.size_m = 0.0;
   options.sizes_m = "3: 0.2";
@@ -165,7 +158,7 @@ TEST_F(MarkerFrontEndTest, RefusesCornersOfMarkersOfUnknownSize) {
   EXPECT_THAT(front_end->notes(), testing::Contains(HasSubstr("nobody said how large")));
 }
 
-TEST_F(MarkerFrontEndTest, EndsWhilePicturesWait) {
+TEST(MarkerFrontEnd, EndsWhilePicturesWait) {
   const auto picture = picture_of({{1, at(0.0, 2.0)}});
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   for (int i = 0; i < 20; ++i) front_end->announce(picture);
@@ -202,7 +195,7 @@ Result<Recording> drive(const std::vector<std::string>& assignments, double seco
   return record(*opened->source, opened->config, {0.0, seconds});
 }
 
-TEST_F(MarkerFrontEndTest, PutsTheMarkersOfARoomOnTheMap) {
+TEST(MarkerFrontEnd, PutsTheMarkersOfARoomOnTheMap) {
   for (const char* filter : {"ekf", "fastslam"}) {
     const auto recording = drive({std::string("filter=") + filter});
     ASSERT_TRUE(recording.ok());
@@ -220,7 +213,7 @@ TEST_F(MarkerFrontEndTest, PutsTheMarkersOfARoomOnTheMap) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, AThreadOfItsOwnChangesNothing) {
+TEST(MarkerFrontEnd, AThreadOfItsOwnChangesNothing) {
   const auto with = drive({"markers.own_thread=true"}, 3.0),
              without = drive({"markers.own_thread=false"}, 3.0);
   ASSERT_TRUE(with.ok() && without.ok());
@@ -231,7 +224,7 @@ TEST_F(MarkerFrontEndTest, AThreadOfItsOwnChangesNothing) {
   }
 }
 
-TEST_F(MarkerFrontEndTest, BlocksStandInTheTableOfTheRun) {
+TEST(MarkerFrontEnd, BlocksStandInTheTableOfTheRun) {
   const auto recording = drive({}, 1.0);
   ASSERT_TRUE(recording.ok());
   std::vector<std::string> names;
@@ -239,7 +232,7 @@ TEST_F(MarkerFrontEndTest, BlocksStandInTheTableOfTheRun) {
   EXPECT_THAT(names, testing::IsSupersetOf({"find markers", "measure markers", "FB6 estimate"}));
 }
 
-TEST_F(MarkerFrontEndTest, ALogWithoutPicturesIsAnError) {
+TEST(MarkerFrontEnd, ALogWithoutPicturesIsAnError) {
   const auto recording =
       drive({"observe=markers", "markers.dictionary=4x4_50", "markers.size_m=0.2"}, 4.0, "study");
   ASSERT_TRUE(recording.ok());

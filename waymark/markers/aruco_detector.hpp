@@ -6,7 +6,7 @@
 
 namespace waymark::markers {
 
-/// Finds ArUco markers by OpenCV, an error in a build without it. Switches OpenCV's own threads off.
-[[nodiscard]] Result<std::unique_ptr<MarkerDetector>> make_aruco_detector(const MarkerDictionary& dictionary);
+/// Finds ArUco markers: dark quadrilaterals whose cells are a pattern of the dictionary.
+[[nodiscard]] std::unique_ptr<MarkerDetector> make_aruco_detector(const MarkerDictionary& dictionary);
 
 }  // namespace waymark::markers

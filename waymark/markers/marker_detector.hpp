@@ -23,8 +23,8 @@ class MarkerDetector {
   MarkerDetector& operator=(const MarkerDetector&) = delete;
   virtual ~MarkerDetector() = default;
 
-  /// Ordered by identity, then from left to right; one identity may appear more than once. Some 3 ms for 640
-  /// x 480 pixels.
+  /// Ordered by identity, then from left to right; one identity may appear more than once. 3 to 6 ms for
+  /// 640 x 480 pixels.
   [[nodiscard]] virtual std::vector<Marker> detect(const ImageView& image) = 0;
 };
 

@@ -13,23 +13,25 @@
 namespace waymark::markers {
 namespace {
 
+// ArUco: 0.6 of the bits that the least distance between two patterns allows to correct, but no more than let
+// one in 300 squares of random bits pass; that is the part of 4x4_50 with none corrected.
 constexpr std::array kDictionaries{
     MarkerDictionary{"4x4_50", MarkerKind::kAruco, 50, 4},
     MarkerDictionary{"4x4_100", MarkerKind::kAruco, 100, 4},
     MarkerDictionary{"4x4_250", MarkerKind::kAruco, 250, 4},
     MarkerDictionary{"4x4_1000", MarkerKind::kAruco, 1000, 4},
-    MarkerDictionary{"5x5_50", MarkerKind::kAruco, 50, 5},
-    MarkerDictionary{"5x5_100", MarkerKind::kAruco, 100, 5},
-    MarkerDictionary{"5x5_250", MarkerKind::kAruco, 250, 5},
-    MarkerDictionary{"5x5_1000", MarkerKind::kAruco, 1000, 5},
-    MarkerDictionary{"6x6_50", MarkerKind::kAruco, 50, 6},
-    MarkerDictionary{"6x6_100", MarkerKind::kAruco, 100, 6},
-    MarkerDictionary{"6x6_250", MarkerKind::kAruco, 250, 6},
-    MarkerDictionary{"6x6_1000", MarkerKind::kAruco, 1000, 6},
-    MarkerDictionary{"7x7_50", MarkerKind::kAruco, 50, 7},
-    MarkerDictionary{"7x7_100", MarkerKind::kAruco, 100, 7},
-    MarkerDictionary{"7x7_250", MarkerKind::kAruco, 250, 7},
-    MarkerDictionary{"7x7_1000", MarkerKind::kAruco, 1000, 7},
+    MarkerDictionary{"5x5_50", MarkerKind::kAruco, 50, 5, 1},
+    MarkerDictionary{"5x5_100", MarkerKind::kAruco, 100, 5, 1},
+    MarkerDictionary{"5x5_250", MarkerKind::kAruco, 250, 5, 1},
+    MarkerDictionary{"5x5_1000", MarkerKind::kAruco, 1000, 5, 1},
+    MarkerDictionary{"6x6_50", MarkerKind::kAruco, 50, 6, 3},
+    MarkerDictionary{"6x6_100", MarkerKind::kAruco, 100, 6, 3},
+    MarkerDictionary{"6x6_250", MarkerKind::kAruco, 250, 6, 3},
+    MarkerDictionary{"6x6_1000", MarkerKind::kAruco, 1000, 6, 2},
+    MarkerDictionary{"7x7_50", MarkerKind::kAruco, 50, 7, 5},
+    MarkerDictionary{"7x7_100", MarkerKind::kAruco, 100, 7, 4},
+    MarkerDictionary{"7x7_250", MarkerKind::kAruco, 250, 7, 4},
+    MarkerDictionary{"7x7_1000", MarkerKind::kAruco, 1000, 7, 3},
     MarkerDictionary{"aruco_original", MarkerKind::kAruco, 1024, 5},
     MarkerDictionary{"apriltag_16h5", MarkerKind::kAprilTag, 30, 4, 0},
     MarkerDictionary{"apriltag_25h9", MarkerKind::kAprilTag, 35, 5, 1},

@@ -15,7 +15,7 @@ struct MarkerDictionary {
   MarkerKind kind = MarkerKind::kAruco;
   int size = 0;            ///< patterns
   int bits_per_side = 0;   ///< without the black border
-  int corrected_bits = 0;  ///< misread bits that still leave no doubt; AprilTags only, OpenCV knows its own
+  int corrected_bits = 0;  ///< misread bits that still leave no doubt
 };
 
 /// All that can be asked for, a smaller set before a larger one that holds it too.

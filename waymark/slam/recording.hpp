@@ -11,6 +11,7 @@
 #include "waymark/core/trajectory.hpp"
 #include "waymark/slam/config.hpp"
 #include "waymark/slam/film_strip.hpp"
+#include "waymark/slam/odometer.hpp"
 #include "waymark/slam/pipeline_counts.hpp"
 #include "waymark/vision/tracker_counts.hpp"
 

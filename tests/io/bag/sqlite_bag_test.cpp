@@ -11,7 +11,7 @@
 namespace waymark::bag {
 namespace {
 
-using test::TempFolder;
+using waymark::test::TempFolder;
 using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;

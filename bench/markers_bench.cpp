@@ -1,0 +1,87 @@
+// Finding ArUco markers in photographs and in a rendered room, beside OpenCV where it is installed.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "waymark/io/image_file.hpp"
+#include "waymark/markers/aruco_detector.hpp"
+#include "waymark/sim/simulation.hpp"
+#ifdef WAYMARK_WITH_OPENCV
+#include "markers/opencv_aruco.hpp"
+#endif
+
+namespace waymark {
+namespace {
+
+struct Photograph {
+  std::string name;
+  std::string dictionary;
+  GreyImage image;
+};
+
+/// Pictures of two laps in a room.
+std::vector<Photograph> room() {
+  std::vector<Photograph> pictures;
+  sim::SimOptions options = *sim::scenario("marker-room");
+  options.film.rate_hz = 0.75;
+  const auto simulation = sim::Simulation::make("room", options, 1);
+  for (auto event = (*simulation)->next(); event && *event; event = (*simulation)->next()) {
+    const auto* image = std::get_if<Image>(&(*event)->content);
+    if (image != nullptr) pictures.push_back({"room", "4x4_50", *image->pixels});
+  }
+  return pictures;
+}
+
+std::vector<Photograph> photographs(const std::filesystem::path& folder) {
+  std::vector<Photograph> all;
+  for (const auto& [name, dictionary] :
+       {std::pair("singlemarkersoriginal.jpg", "6x6_250"), std::pair("choriginal.jpg", "6x6_250"),
+        std::pair("tag_01_d7_14cm.png", "5x5_1000"), std::pair("tag_245-246_d7_14cm.png", "5x5_1000"),
+        std::pair("arucoboard.png", "6x6_1000")})
+    if (auto image = read_image(folder / name)) all.push_back({name, dictionary, *std::move(image)});
+  return all;
+}
+
+/// Time per picture; the counter is how many markers it finds in all of them.
+template <class Detector>
+void detect(benchmark::State& state, Detector& detector, const std::vector<Photograph>& pictures) {
+  std::size_t found = 0;
+  for (auto _ : state) {
+    found = 0;
+    for (const Photograph& picture : pictures) found += detector.detect(picture.image).size();
+  }
+  state.counters["markers"] = static_cast<double>(found);
+  state.counters["per picture"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(pictures.size()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void register_pictures(const std::vector<Photograph>& pictures) {
+  const Photograph& first = pictures.front();
+  const auto dictionary = *markers::find_marker_dictionary(first.dictionary);
+  const std::string name = first.name + "/" + std::to_string(first.image.width_px()) + "x" +
+                           std::to_string(first.image.height_px());
+  benchmark::RegisterBenchmark(("aruco/" + name).c_str(), [=](benchmark::State& state) {
+    const auto detector = markers::make_aruco_detector(dictionary);
+    detect(state, *detector, pictures);
+  })->Unit(benchmark::kMillisecond);
+#ifdef WAYMARK_WITH_OPENCV
+  benchmark::RegisterBenchmark(("aruco_opencv/" + name).c_str(), [=](benchmark::State& state) {
+    test::OpenCvAruco detector(dictionary);
+    detect(state, detector, pictures);
+  })->Unit(benchmark::kMillisecond);
+#endif
+}
+
+const bool kRegistered = [] {
+  register_pictures(room());
+  for (const Photograph& each : photographs(std::filesystem::path(WAYMARK_DATA_DIR) / "marker-photos"))
+    register_pictures({each});
+  return true;
+}();
+
+}  // namespace
+}  // namespace waymark
