@@ -180,7 +180,7 @@ void print_found(const std::vector<SplitOutcome>& outcomes) {
 }
 
 void print_one_camera(const char* errors, const std::vector<Scene>& scenes, int seeds) {
-  std::vector<Outcome> all;
+  std::vector<SplitOutcome> all;
   for (const Scene& scene : scenes) {
     const auto outcomes = split_all(scene, seeds);
     print(scene.name, outcomes);
@@ -196,8 +196,9 @@ void print_two_cameras(const std::vector<Scene>& scenes, int seeds) {
   for (const Scene& scene : scenes) {
     const auto outcomes = split_all(scene, seeds);
     print(scene.name, outcomes);
-    fmt::print("{:>8}\n", std::ranges::count_if(
-                              outcomes, [](const Outcome& one) { return is_found(one) && one.is_exact; }));
+    fmt::print("{:>8}\n", std::ranges::count_if(outcomes, [](const SplitOutcome& one) {
+                 return is_found(one) && one.is_exact;
+               }));
   }
 }
 

@@ -43,7 +43,7 @@ TEST(Crew, MakesAllRunsAndTheResultDoesNotDependOnThreads) {
 
 TEST(Crew, ThatCannotBeStartedStopsTheSweep) {
   const TempFolder folder;
-  const auto sweep = Sweep::open(plan(), folder.path()).value();
+  const auto sweep = Sweep::open(crew_plan(), folder.path()).value();
   const waymark::test::NoMoreThreads none;
   EXPECT_THROW(Crew(*sweep, 2), std::system_error);
   EXPECT_TRUE(sweep->stopped());

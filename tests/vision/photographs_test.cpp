@@ -50,18 +50,18 @@ Eigen::Matrix3d read_matrix(const std::filesystem::path& path) {
   return H;
 }
 
-struct Outcome {
+struct MatchQuality {
   int searched = 0, accepted = 0, right = 0, accepted_right = 0;
 
   [[nodiscard]] double right_share() const { return static_cast<double>(right) / searched; }
   [[nodiscard]] double accepted_right_share() const { return static_cast<double>(accepted_right) / accepted; }
 };
 
-Outcome match(const char* name, const GreyImage& first, const GreyImage& second, const Truth& truth,
-              bool warp, const SearchOptions& options = {}) {
+MatchQuality match(const char* name, const GreyImage& first, const GreyImage& second, const Truth& truth,
+                   bool warp, const SearchOptions& options = {}) {
   RandomStream random(1, StreamPurpose::kWorld);
   Search search(options);
-  Outcome outcome;
+  MatchQuality outcome;
   for (const Corner& corner : test::spread_corners(first, {.threshold = 20, .arc = 9})) {
     const TruePlace place = truth(Eigen::Vector2d(corner.u, corner.v));
     const auto reference = cut_reference(first, corner.u, corner.v);
@@ -93,9 +93,9 @@ TEST(Photographs, WallFromAnotherViewpointIsMatchedByWarpedPatches) {
   WAYMARK_REQUIRE_DATA("gray-images");
   const Truth truth = homography(read_matrix(test::data_path("gray-images/H1to3p.xml")));
   const GreyImage first = test::photograph("graf1.png"), second = test::photograph("graf3.png");
-  const Outcome warped = match("graf, warped", first, second, truth, true);
-  const Outcome plain = match("graf, as cut", first, second, truth, false);
-  const Outcome article =
+  const MatchQuality warped = match("graf, warped", first, second, truth, true);
+  const MatchQuality plain = match("graf, as cut", first, second, truth, false);
+  const MatchQuality article =
       match("graf, warped, match: article", first, second, truth, true, {.match = MatchScore::kArticle});
   EXPECT_GT(warped.right_share(), 0.75);
   EXPECT_GT(warped.accepted_right_share(), 0.8);
@@ -107,8 +107,8 @@ TEST(Photographs, WallFromAnotherViewpointIsMatchedByWarpedPatches) {
 TEST(Photographs, SmallMotionIsMatched) {
   WAYMARK_REQUIRE_DATA("gray-images");
   // The scene moves by one to two pixels between the two.
-  const Outcome outcome = match("rubberwhale", test::photograph("rubberwhale1.png"),
-                                test::photograph("rubberwhale2.png"), same_view(), false);
+  const MatchQuality outcome = match("rubberwhale", test::photograph("rubberwhale1.png"),
+                                     test::photograph("rubberwhale2.png"), same_view(), false);
   EXPECT_GT(outcome.right_share(), 0.9);
   EXPECT_GT(outcome.accepted, outcome.searched * 9 / 10);
 }
@@ -131,7 +131,7 @@ TEST(Photographs, AnotherExposureIsMatched) {
   const GreyImage first = test::photograph("building.jpg");
   for (const auto& [gain, offset] : {std::pair{1.0, 30.0}, {0.8, 0.0}, {0.6, 20.0}}) {
     const std::string name = "building, gain " + std::to_string(gain) + ", offset " + std::to_string(offset);
-    const Outcome outcome = match(name.c_str(), first, exposed(first, gain, offset), same_view(), false);
+    const MatchQuality outcome = match(name.c_str(), first, exposed(first, gain, offset), same_view(), false);
     EXPECT_GT(outcome.right_share(), 0.9) << name;
   }
 }
