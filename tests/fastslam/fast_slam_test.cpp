@@ -32,7 +32,7 @@ FastSlamOptions with_particles(int particles) {
   return options;
 }
 
-void drive(FastSlam& filter, CircleWorld& world, int steps) {
+void drive_named(FastSlam& filter, CircleWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
     filter.correct(world.look());
@@ -56,7 +56,7 @@ std::vector<Observation> keep(Seen seen, std::vector<Observation> scan) {
   return scan;
 }
 
-void drive(FastSlam& filter, CircleWorld& world, int steps, Seen seen) {
+void drive_named(FastSlam& filter, CircleWorld& world, int steps, Seen seen) {
   for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
     filter.correct(keep(seen, world.look()));
@@ -129,7 +129,7 @@ TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
     FastSlam filter({}, {}, world.sensor(), seed);
-    drive(filter, world, kSteps);
+    drive_named(filter, world, kSteps);
     error_m += position_error_m(filter, world) / kRuns;
     blind_m += dead_reckoning_error_m(seed, kSteps) / kRuns;
     for (const auto& landmark : filter.snapshot().landmarks) {
@@ -191,7 +191,7 @@ TEST(FastSlam, WeightsAreTheLikelihoodsOfTheScan) {
 TEST(FastSlam, PoseFollowsTheMotionBetweenSightings) {
   CircleWorld world(3);
   FastSlam filter({}, {}, world.sensor(), 1);
-  drive(filter, world, 20);
+  drive_named(filter, world, 20);
   const PoseEstimate before = filter.pose();
   const Motion motion = world.move();
   filter.predict(motion);
@@ -220,7 +220,7 @@ TEST(FastSlam, RefusesWhatItCannotUseAndSaysWhy) {
   FastSlamOptions options;
   options.capacity = 8;
   FastSlam filter(options, {}, world.sensor(), 1);
-  drive(filter, world, 10);
+  drive_named(filter, world, 10);
   std::vector<Observation> scan(7, world.sight(0));
   scan[0].value = RangeBearing{kNan, 0.0};
   scan[1].id.reset();
@@ -250,7 +250,7 @@ TEST(FastSlam, IgnoresAMotionThatIsNotFinite) {
 TEST(FastSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   CircleWorld world(6);
   FastSlam filter({}, {}, world.sensor(), 1);
-  drive(filter, world, 50);
+  drive_named(filter, world, 50);
   const PoseEstimate before = filter.pose();
   const auto landmark_before = filter.snapshot().landmarks[4];
   Observation misread = world.sight(0);
@@ -267,7 +267,7 @@ TEST(FastSlam, AMisreadIdentityIsGatedAndChangesNothing) {
 TEST(FastSlam, GatesASightingInTheOppositeDirection) {
   CircleWorld world(6);
   FastSlam filter({}, {}, world.sensor(), 1);
-  drive(filter, world, 50);
+  drive_named(filter, world, 50);
   // For some particles the innovation is just below pi, for others just above -pi: they must not cancel.
   for (int landmark = 0; landmark < 4; ++landmark) {
     Observation reversed = world.sight(landmark);
@@ -299,7 +299,7 @@ TEST(FastSlam, MisreadIdentitiesDoNotRuinARun) {
 TEST(FastSlam, ALostSetAcceptsAgainInsteadOfGatingForEver) {
   CircleWorld world(7);
   FastSlam filter({}, {}, world.sensor(), 1);
-  drive(filter, world, 50);
+  drive_named(filter, world, 50);
   filter.predict({{2.0, 1.0, 0.5}, 1e-6 * Eigen::Matrix3d::Identity()});  // pushed, and sure of it
   filter.correct(world.look());
   int matched = 0;
@@ -314,13 +314,13 @@ TEST(FastSlam, ALostSetAcceptsAgainInsteadOfGatingForEver) {
 TEST(FastSlam, AnAbsurdObservationThatIsNotGatedLeavesTheSetAlive) {
   CircleWorld world(8);
   FastSlam filter({}, {.probability = 1.0}, world.sensor(), 1);
-  drive(filter, world, 20);
+  drive_named(filter, world, 20);
   Observation absurd = world.sight(0);
   absurd.value = RangeBearing{1e200, 0.0};
   EXPECT_EQ(filter.correct({&absurd, 1}).innovations[0].outcome, Outcome::kUnusable);
   absurd.value = RangeBearing{1e6, 0.0};
   EXPECT_EQ(filter.correct({&absurd, 1}).innovations[0].outcome, Outcome::kMatched);
-  drive(filter, world, 5);
+  drive_named(filter, world, 5);
   EXPECT_TRUE(filter.pose().covariance.allFinite());
   double total = 0.0;
   for (const double weight : filter.particles().weights()) total += weight;
@@ -336,13 +336,13 @@ TEST(FastSlam, RecoversFromLikelihoodsThatNoParticleCanHave) {
       options.proposal = proposal;
       options.evidence_way_m = 0.0;
       FastSlam filter(options, {.probability = 1.0}, world.sensor(), 1);
-      drive(filter, world, 20);
+      drive_named(filter, world, 20);
       filter.predict(world.move());
       Observation absurd = world.sight(0);
       absurd.value = RangeBearing{range_m, 0.0};
       const Outcome outcome = filter.correct({&absurd, 1}).innovations[0].outcome;
       EXPECT_EQ(outcome, range_m < 1e30 ? Outcome::kMatched : Outcome::kUnusable);
-      drive(filter, world, 50);
+      drive_named(filter, world, 50);
       EXPECT_TRUE(filter.pose().covariance.allFinite());
       EXPECT_LT(position_error_m(filter, world), 0.5) << range_m;
       double total = 0.0;
@@ -367,7 +367,7 @@ TEST(FastSlam, SnapshotAndSaveAreTheMomentsOfTheMixture) {
   FastSlamOptions options = with_particles(60);
   options.resample_below = 0.0;  // so that weights differ, and pose() is of these very particles
   FastSlam filter(options, {}, world.sensor(), 1);
-  drive(filter, world, 10);
+  drive_named(filter, world, 10);
   const Snapshot snapshot = filter.snapshot();
   const MapState map = filter.save();
   ASSERT_EQ(map.ids.size(), 8U);
@@ -406,7 +406,7 @@ TEST(FastSlam, SaveFollowsAMotionThatNoParticleHasMade) {
   FastSlamOptions options;
   options.resample_below = 0.0;
   FastSlam filter(options, {}, world.sensor(), 1);
-  drive(filter, world, 10);
+  drive_named(filter, world, 10);
   const Eigen::MatrixXd before = filter.save().covariance;
   filter.predict({{1.0, 0.0, 0.3}, 1e-6 * Eigen::Matrix3d::Identity()});
   const MapState map = filter.save();
@@ -431,7 +431,7 @@ TEST_P(FastSlamSeeing, SameSeedSameBitsOnAnyNumberOfThreads) {
   const auto final_map = [](std::uint64_t seed, int threads) {
     CircleWorld world(1);
     FastSlam filter(with_particles(700), {}, world.sensor(), seed, threads);
-    drive(filter, world, 60, GetParam());
+    drive_named(filter, world, 60, GetParam());
     EXPECT_GT(filter.resamplings(), 0);
     return filter.save();
   };
@@ -451,7 +451,7 @@ TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
     FastSlamOptions options;
     options.evidence_way_m = evidence_way_m;
     FastSlam filter(options, {}, world.sensor(), 1);
-    drive(filter, world, 20, GetParam());
+    drive_named(filter, world, 20, GetParam());
     const auto resamplings = filter.resamplings();
     const std::vector<Pose2> poses = poses_of(filter);
     for (int i = 0; i < 200; ++i) {
@@ -460,7 +460,7 @@ TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
     }
     EXPECT_EQ(filter.resamplings(), resamplings);
     EXPECT_TRUE(poses_of(filter) == poses);
-    drive(filter, world, 100, GetParam());
+    drive_named(filter, world, 100, GetParam());
     EXPECT_GT(filter.resamplings(), resamplings);
   }
 }
@@ -468,7 +468,7 @@ TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
 TEST_P(FastSlamSeeing, ASteadyStateStepAllocatesNothing) {
   CircleWorld world(12);
   FastSlam filter(with_particles(600), {}, world.sensor(), 1, 2);
-  drive(filter, world, 5, GetParam());
+  drive_named(filter, world, 5, GetParam());
   std::vector<std::pair<Motion, std::vector<Observation>>> steps;
   for (int i = 0; i < 100; ++i) {
     const Motion motion = world.move();
@@ -499,7 +499,7 @@ Errors errors_starting(LandmarkStart init, Seen seen) {
     FastSlamOptions options = with_particles(100);
     options.init = init;
     FastSlam filter(options, {}, world.sensor(), seed);
-    drive(filter, world, 200, seen);
+    drive_named(filter, world, 200, seen);
     errors.robot_m += position_error_m(filter, world) / kRuns;
     for (const auto& landmark : filter.snapshot().landmarks) {
       const auto& truth = world.landmarks()[static_cast<std::size_t>(landmark.id.number)];
