@@ -87,6 +87,8 @@ function(waymark_test folder)
   waymark_check_arguments("waymark_test(${folder})")
   set(target waymark_${folder}_test)
   add_executable(${target} ${arg_FILES})
+  # Most of what a test compiles runs once.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
   gtest_discover_tests(

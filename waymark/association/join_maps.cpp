@@ -5,10 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "waymark/core/chi2.hpp"
+#include "waymark/core/cholesky.hpp"
+#include "waymark/core/solve_symmetric.hpp"
 
 namespace waymark {
 namespace {
@@ -43,13 +44,13 @@ Index row(int landmark) { return 3 + 2 * Index{landmark}; }
 struct Moved {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
-  Eigen::MatrixX3d J;
+  Eigen::MatrixXd J;
 };
 
 Moved move(const MapState& map, const Pose2& T) {
   const Index n = map.covariance.rows();
   const Eigen::Matrix2d R = T.rotation();
-  Moved moved{mean_of(map), map.covariance, Eigen::MatrixX3d::Zero(n, 3)};
+  Moved moved{mean_of(map), map.covariance, Eigen::MatrixXd::Zero(n, 3)};
   const auto move_point = [&](Index at) {
     const Eigen::Vector2d turned = R * moved.mean.segment<2>(at);
     moved.mean.segment<2>(at) = turned + T.position();
@@ -69,12 +70,12 @@ Moved move(const MapState& map, const Pose2& T) {
 struct Apart {
   Eigen::VectorXd d;
   Eigen::MatrixXd S;
-  Eigen::MatrixX3d J;  ///< of the second map's part to T
+  Eigen::MatrixXd J;  ///< of the second map's part to T
 };
 
 Apart compare(const MapState& first, const Moved& second, const std::vector<Common>& common) {
   const auto size = 2 * std::ssize(common);
-  Apart apart{Eigen::VectorXd(size), Eigen::MatrixXd(size, size), Eigen::MatrixX3d(size, 3)};
+  Apart apart{Eigen::VectorXd(size), Eigen::MatrixXd(size, size), Eigen::MatrixXd(size, 3)};
   for (Index i = 0; i < std::ssize(common); ++i) {
     const auto& [a, b] = common[static_cast<std::size_t>(i)];
     apart.d.segment<2>(2 * i) = first.landmarks.segment<2>(2 * a) - second.mean.segment<2>(row(b));
@@ -125,9 +126,10 @@ Fit fit(const MapState& first, const MapState& second, const std::vector<Common>
   for (int i = 0; i <= kIterations; ++i) {
     fit.second = move(second, fit.T);
     fit.apart = compare(first, fit.second, common);
-    const Eigen::LLT<Eigen::MatrixXd> S(fit.apart.S);
+    const Cholesky S(fit.apart.S);
     const Eigen::MatrixXd weighted = S.solve(fit.apart.J);
-    fit.covariance = (fit.apart.J.transpose() * weighted).llt().solve(Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d information = fit.apart.J.transpose() * weighted;
+    fit.covariance = solve_symmetric(information, Eigen::Matrix3d::Identity());
     fit.d2 = fit.apart.d.dot(S.solve(fit.apart.d));
     if (i == kIterations) break;
     const Eigen::Vector3d step = fit.covariance * (weighted.transpose() * fit.apart.d);
@@ -168,9 +170,9 @@ Joint correct(const MapState& first, const Fit& fit, const std::vector<Common>& 
         joint.covariance.middleCols<2>(row(a)) - joint.covariance.middleCols<2>(n + row(b));
   }
   const Eigen::MatrixXd S = fit.apart.S + fit.apart.J * P_T * fit.apart.J.transpose();
-  const Eigen::LLT<Eigen::MatrixXd> llt(S);
-  joint.mean -= PH * llt.solve(fit.apart.d);
-  const Eigen::MatrixXd W = llt.matrixL().solve(PH.transpose());
+  const Cholesky cholesky(S);
+  joint.mean -= PH * cholesky.solve(fit.apart.d);
+  const Eigen::MatrixXd W = cholesky.whiten(Eigen::MatrixXd(PH.transpose()));
   joint.covariance -= W.transpose() * W;
   joint.covariance = (0.5 * (joint.covariance + joint.covariance.transpose())).eval();
   return joint;

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "waymark/calibrate/plane_homography.hpp"
+#include "waymark/core/cholesky.hpp"
 #include "waymark/core/solve_symmetric.hpp"
 
 namespace waymark::calibrate {
@@ -16,9 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix96d = Eigen::Matrix<double, kIntrinsics, 6>;
 
 constexpr int kIterations = 200;
 constexpr double kConverged = 1e-10;  // of the sum of squares
@@ -27,8 +25,8 @@ constexpr double kConverged = 1e-10;  // of the sum of squares
 struct Normal {
   IntrinsicsCovariance A = IntrinsicsCovariance::Zero();
   Intrinsics a = Intrinsics::Zero();
-  Matrix96d B = Matrix96d::Zero();
-  Matrix6d C = Matrix6d::Zero();
+  SmallMatrix B = SmallMatrix::Zero(kIntrinsics, 6);
+  SmallMatrix C = SmallMatrix::Zero(6, 6);
   Vector6d c = Vector6d::Zero();
   double squares = 0.0;
 };
@@ -217,11 +215,11 @@ class Adjustment {
   bool try_step(const std::vector<Normal>& normals, double damping) {
     IntrinsicsCovariance S = IntrinsicsCovariance::Zero();
     Intrinsics s = Intrinsics::Zero();
-    std::vector<Matrix6d> inverses;
+    std::vector<SmallMatrix> inverses;
     for (const Normal& n : normals) {
-      Matrix6d C = n.C;
+      SmallMatrix C = n.C;
       C.diagonal() *= 1.0 + damping;
-      inverses.emplace_back(solve_symmetric(C, Matrix6d::Identity()));
+      inverses.emplace_back(solve_symmetric(C, SmallMatrix::Identity(6, 6)));
       S += n.A - n.B * inverses.back() * n.B.transpose();
       S.diagonal() += damping * n.A.diagonal();
       s += n.a - n.B * inverses.back() * n.c;
@@ -327,11 +325,10 @@ Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> v
   fit.rms_px = rms_px(fit.views);
   const double unknowns = free.sum() + 6.0 * static_cast<double>(views.size());
   const double spare = 2.0 * static_cast<double>(corners) - unknowns;
-  const Eigen::LLT<IntrinsicsCovariance> llt(adjustment.information());
-  if (spare < 1.0 || llt.info() != Eigen::Success) return left_open();
+  const Cholesky information(adjustment.information());
+  if (spare < 1.0 || !information.is_positive_definite()) return left_open();
   const double variance = fit.rms_px * fit.rms_px * static_cast<double>(corners) / spare;
-  fit.covariance = variance * llt.solve(IntrinsicsCovariance::Identity());
-  fit.covariance = free.asDiagonal() * fit.covariance * free.asDiagonal();
+  fit.covariance = variance * free.asDiagonal() * information.solve(Eigen::MatrixXd(free.asDiagonal()));
   return fit.covariance.allFinite() ? Result<CameraFit>(std::move(fit)) : left_open();
 }
 

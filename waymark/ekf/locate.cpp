@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "waymark/core/chi2.hpp"
+#include "waymark/core/cholesky.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -31,13 +31,12 @@ struct Model {
 std::optional<Model> model_at(const Eigen::Vector2d& p_world, const LinearizeViews& linearize) {
   const auto views = linearize(p_world);
   if (!views) return std::nullopt;
-  const Eigen::LLT<Eigen::MatrixXd> llt(views->S);
-  if (llt.info() != Eigen::Success || !views->nu.allFinite() || !views->H.allFinite()) return std::nullopt;
-  const Eigen::VectorXd nu = llt.matrixL().solve(views->nu);
-  const Eigen::Matrix<double, Eigen::Dynamic, 2> H = llt.matrixL().solve(views->H);
-  const double log_det = 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
-  return Model{std::ssize(views->nu), nu.squaredNorm(), nu.squaredNorm() + log_det, H.transpose() * nu,
-               H.transpose() * H};
+  const Cholesky S(views->S);
+  if (!S.is_positive_definite() || !views->nu.allFinite() || !views->H.allFinite()) return std::nullopt;
+  const Eigen::VectorXd nu = S.whiten(views->nu);
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> H = S.whiten(Eigen::MatrixXd(views->H));
+  return Model{std::ssize(views->nu), nu.squaredNorm(), nu.squaredNorm() + S.log_determinant(),
+               H.transpose() * nu, H.transpose() * H};
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <iterator>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "waymark/core/cholesky.hpp"
 
 namespace waymark::study {
 namespace {
@@ -163,9 +164,9 @@ Eigen::MatrixXd slope_covariance(const Quadratic& quadratic) {
 Eigen::VectorXd growth(const TuneProblem& problem, const Quadratic& quadratic, double value) {
   const auto n = static_cast<Eigen::Index>(quadratic.count());
   const Eigen::MatrixXd H = curvature(problem, quadratic, value);
-  const Eigen::LLT<Eigen::MatrixXd> llt(H);
-  if (llt.info() != Eigen::Success) return Eigen::VectorXd::Ones(n);
-  const Eigen::MatrixXd P = llt.solve(Eigen::MatrixXd::Identity(n, n));
+  const Cholesky cholesky(H);
+  if (!cholesky.is_positive_definite()) return Eigen::VectorXd::Ones(n);
+  const Eigen::MatrixXd P = cholesky.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)));
   Eigen::VectorXd variances = P.diagonal();
   if (problem.by() == TuneBy::kLikelihood)
     variances = variances.cwiseMax((P * slope_covariance(quadratic) * P).diagonal());
