@@ -105,15 +105,17 @@ int run_program(int argc, char** argv) {
   return done ? 0 : report(done.error());
 }
 
-/// What cannot be printed is thrown on, and may show only when all is done.
+/// That standard output does not take what is printed is thrown, or shows only when all is done.
 int run_and_report(int argc, char** argv) {
   int status = 0;
+  std::string lost;
   try {
     status = run_program(argc, argv);
+    lost = output_failure();
   } catch (const std::exception& problem) {
-    if (output_failure().empty()) status = report(failure(problem));
+    lost = output_failure();
+    if (lost.empty()) return report(failure(problem));
   }
-  const std::string lost = output_failure();
   return status == 0 && !lost.empty() ? report({lost, Error::Kind::kFailed}) : status;
 }
 

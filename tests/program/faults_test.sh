@@ -2,14 +2,15 @@
 # What goes wrong around the program: outputs that are full or closed, names of any bytes, hostile files, no threads, no
 # memory. It ends in time, with its status and one line, and never by a signal. Usage: faults_test.sh WAYMARK
 set -uo pipefail
-waymark=$1
+waymark=$(realpath "$1")
+exec 3>&1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 failures=0
 
 fail() {
-  echo "FAILED: $1"
+  echo "FAILED: $1" >&3
   failures=$((failures + 1))
 }
 
@@ -49,7 +50,7 @@ for command in 'run log -o full --json' 'run log -o full' 'check log --json' 'ch
   # shellcheck disable=SC2086
   "$waymark" $command >/dev/full 2>err.txt
   [ $? -eq 1 ] || fail "$command >/dev/full does not end with 1"
-  [ "$(cat err.txt)" = 'waymark: cannot write to standard output: No space left on device' ] ||
+  [ "$(wc -l <err.txt)" -eq 1 ] && grep -q '^waymark: cannot write to standard output' err.txt ||
     fail "$command >/dev/full says: $(cat err.txt)"
 done
 [ -s full/report.html ] || fail 'run wrote no report because standard output is full'
