@@ -11,11 +11,11 @@
 namespace waymark::bag {
 namespace {
 
-using waymark::test::TempFolder;
 using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using waymark::test::TempFolder;
 namespace fs = std::filesystem;
 
 constexpr const char* kTopics =
