@@ -12,7 +12,7 @@ class Cholesky {
   explicit Cholesky(const Eigen::MatrixXd& S);
 
   /// Whether S is positive definite; otherwise nothing else here means anything.
-  [[nodiscard]] bool is_positive_definite() const { return llt_.info() == Eigen::Success; }
+  [[nodiscard]] bool is_positive_definite() const;
   /// log |S|
   [[nodiscard]] double log_determinant() const;
 
