@@ -91,11 +91,16 @@ function(waymark_test folder)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
+  # Instrumented code takes several times as long.
+  set(timeout_s 300)
+  if(WAYMARK_SANITIZE)
+    set(timeout_s 1200)
+  endif()
   gtest_discover_tests(
     ${target}
     TEST_PREFIX "${folder}."
     DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT 300 LABELS "${folder}")
+    PROPERTIES TIMEOUT ${timeout_s} LABELS "${folder}")
 endfunction()
 
 # waymark_bench(<folder> FILES <files...> LIBRARIES <further targets...>): one Google Benchmark program.
