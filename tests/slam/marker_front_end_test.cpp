@@ -55,7 +55,7 @@ class FearsTheDark final : public markers::MarkerDetector {
  public:
   std::vector<markers::Marker> detect(const ImageView& image) override {
     if (image.data[0] == 0) throw std::runtime_error("too dark");
-    return {{7, {}}};
+    return {MarkerOutline{7, {{{1.0, 1.0}, {6.0, 1.0}, {6.0, 6.0}, {1.0, 6.0}}}}};
   }
 };
 
