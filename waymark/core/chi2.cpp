@@ -3,8 +3,16 @@
 #include <cmath>
 #include <limits>
 
+#include <math.h>  // NOLINT(modernize-deprecated-headers): lgamma_r is not in <cmath>
+
 namespace waymark {
 namespace {
+
+/// std::lgamma writes the sign to a variable that all threads share.
+double log_gamma(double a) {
+  int sign = 0;
+  return ::lgamma_r(a, &sign);
+}
 
 /// Lower regularised incomplete gamma P(a, x) by its power series; converges quickly for x < a + 1.
 double gamma_p_series(double a, double x) {
@@ -14,7 +22,7 @@ double gamma_p_series(double a, double x) {
     term *= x / n;
     sum += term;
   }
-  return sum * std::exp(-x + a * std::log(x) - std::lgamma(a));
+  return sum * std::exp(-x + a * std::log(x) - log_gamma(a));
 }
 
 /// Upper regularised incomplete gamma Q(a, x) by Lentz's continued fraction; for x >= a + 1.
@@ -32,7 +40,7 @@ double gamma_q_fraction(double a, double x) {
     h *= d * c;
     if (std::abs(d * c - 1.0) < 1e-16) break;
   }
-  return h * std::exp(-x + a * std::log(x) - std::lgamma(a));
+  return h * std::exp(-x + a * std::log(x) - log_gamma(a));
 }
 
 }  // namespace
