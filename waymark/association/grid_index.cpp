@@ -10,8 +10,10 @@ void GridIndex::build(std::span<const Eigen::Vector2d> points) {
   const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(2 * points.size(), 1));
   first_.assign(std::max(buckets, first_.size()), -1);
   next_.assign(points.size(), -1);
+  cells_.resize(points.size());
   for (std::size_t i = points.size(); i-- > 0;) {
-    int& first = first_[bucket(cell_of(points_[i]))];
+    cells_[i] = cell_of(points_[i]);
+    int& first = first_[bucket(cells_[i])];
     next_[i] = first;
     first = static_cast<int>(i);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,7 +35,7 @@ class GridIndex {
     for (std::int64_t y = low.y; y <= high.y; ++y)
       for (std::int64_t x = low.x; x <= high.x; ++x)
         for (int i = first_[bucket({x, y})]; i >= 0; i = next_[static_cast<std::size_t>(i)])
-          if (cell_of(points_[static_cast<std::size_t>(i)]) == Cell{x, y}) visit_if_near(i);
+          if (cells_[static_cast<std::size_t>(i)] == Cell{x, y}) visit_if_near(i);
   }
 
  private:
@@ -46,17 +46,21 @@ class GridIndex {
   };
 
   [[nodiscard]] Cell cell_of(const Eigen::Vector2d& p) const { return {cell_of(p.x()), cell_of(p.y())}; }
-  /// What is not a number, too, is somewhere.
+  /// What is not a number, too, is somewhere. std::floor would be a call on processors without SSE 4.1.
   [[nodiscard]] std::int64_t cell_of(double x_m) const {
     constexpr double kFarthest = 1e15;
-    return static_cast<std::int64_t>(std::fmin(std::fmax(std::floor(x_m / cell_m_), -kFarthest), kFarthest));
+    const double cells = x_m / cell_m_;
+    const double bounded = cells >= -kFarthest ? std::min(cells, kFarthest) : -kFarthest;
+    const auto towards_zero = static_cast<std::int64_t>(bounded);
+    return towards_zero - (static_cast<double>(towards_zero) > bounded ? 1 : 0);
   }
   [[nodiscard]] std::size_t bucket(const Cell& cell) const;
 
   double cell_m_;
   std::vector<Eigen::Vector2d> points_;
-  std::vector<int> first_;  // of the points in a bucket; a power of two of them
-  std::vector<int> next_;   // behind a point in its bucket
+  std::vector<Cell> cells_;  // of the points
+  std::vector<int> first_;   // of the points in a bucket; a power of two of them
+  std::vector<int> next_;    // behind a point in its bucket
 };
 
 }  // namespace waymark

@@ -36,6 +36,15 @@ JointMatch::JointMatch(double gate_probability, int most_sightings, int most_nod
 void JointMatch::begin(int sightings) {
   best_.assign(as_index(sightings), kNothing);
   common_.resize(pairs_.size() * pairs_.size());
+  is_known_.assign(common_.size(), 0);
+}
+
+/// Most pairs are never tried together.
+const Eigen::Matrix2d& JointMatch::common(std::size_t a, std::size_t b) {
+  const std::size_t at = a * pairs_.size() + b;
+  if (is_known_[at] == 0) common_[at] = covariance_(context_, static_cast<int>(a), static_cast<int>(b));
+  is_known_[at] = 1;
+  return common_[at];
 }
 
 void JointMatch::search() {

@@ -42,14 +42,15 @@ class JointMatch {
   void add(const JointPair& pair) { pairs_.push_back(pair); }
   [[nodiscard]] std::span<const JointPair> pairs() const { return pairs_; }
 
-  /// `covariance(a, b)`, both indices of pairs, is H_a P H_b^T, 2x2. Sightings count from 0. O(pairs^2) calls
-  /// and O(nodes * sightings^2).
+  /// `covariance(a, b)`, both indices of pairs, is H_a P H_b^T, 2x2. Sightings count from 0. It is called
+  /// once for two pairs that are tried together, so at most O(pairs^2) times. O(nodes * sightings^2).
   template <class Covariance>
   void solve(int sightings, const Covariance& covariance) {
+    covariance_ = [](const void* context, int a, int b) -> Eigen::Matrix2d {
+      return (*static_cast<const Covariance*>(context))(a, b);
+    };
+    context_ = &covariance;
     begin(sightings);
-    for (std::size_t a = 0; a < pairs_.size(); ++a)
-      for (std::size_t b = 0; b <= a; ++b)
-        common(a, b) = covariance(static_cast<int>(a), static_cast<int>(b));
     search();
   }
 
@@ -80,9 +81,7 @@ class JointMatch {
     double score = 0.0;
   };
 
-  [[nodiscard]] Eigen::Matrix2d& common(std::size_t a, std::size_t b) {
-    return common_[a * pairs_.size() + b];
-  }
+  [[nodiscard]] const Eigen::Matrix2d& common(std::size_t a, std::size_t b);
   void begin(int sightings);
   void search();
   void rank_pairs();
@@ -97,7 +96,10 @@ class JointMatch {
   std::vector<double> gates_;  // by number of pairs
   int most_nodes_;
   std::vector<JointPair> pairs_;
+  Eigen::Matrix2d (*covariance_)(const void* context, int a, int b) = nullptr;  // during solve()
+  const void* context_ = nullptr;
   std::vector<Eigen::Matrix2d> common_;  // H P H^T by pair and pair, lower triangle
+  std::vector<char> is_known_;           // which of them are
   std::vector<double> alone_;            // score of a pair by itself
   std::vector<int> order_;               // pairs by level, the best first
   std::vector<Level> levels_;
