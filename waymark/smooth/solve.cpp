@@ -67,16 +67,26 @@ class NormalEquations {
       : layout_(layout), g_(Eigen::VectorXd::Zero(layout.size())) {}
 
   /// A block of columns of a factor's Jacobian; `at` < 0: it is no variable.
-  template <int Rows, int Columns>
+  template <int Rows>
   struct Block {
     Eigen::Index at;
-    Eigen::Matrix<double, Rows, Columns> J;
+    Eigen::Matrix<double, Rows, Eigen::Dynamic, Eigen::ColMajor, Rows, kCalibrationSize> J;
   };
 
   /// Blocks in any order.
-  template <class Residual, class... Blocks>
-  void add(double weight, const Residual& residual, const Blocks&... blocks) {
-    (add_row(weight, residual, blocks, blocks...), ...);
+  template <int Rows>
+  void add(double weight, const Eigen::Matrix<double, Rows, 1>& residual,
+           std::initializer_list<Block<Rows>> blocks) {
+    for (const Block<Rows>& row : blocks) {
+      if (row.at < 0) continue;
+      const auto Jt = (weight * row.J.transpose()).eval();
+      for (Eigen::Index i = 0; i < Jt.rows(); ++i) {
+        double sum = Jt(i, 0) * residual[0];
+        for (Eigen::Index k = 1; k < Rows; ++k) sum += Jt(i, k) * residual[k];
+        g_[row.at + i] += sum;
+      }
+      for (const Block<Rows>& column : blocks) add_product(row.at, Jt, column);
+    }
   }
 
   /// A prior on one variable.
@@ -94,38 +104,26 @@ class NormalEquations {
 
   /// The columns of a calibration that are variables.
   template <int Rows>
-  [[nodiscard]] Block<Rows, Eigen::Dynamic> calibration(
-      const Eigen::Matrix<double, Rows, kCalibrationSize>& J) const {
+  [[nodiscard]] Block<Rows> calibration(const Eigen::Matrix<double, Rows, kCalibrationSize>& J) const {
     return {layout_.calibration(), J(Eigen::all, layout_.estimated())};
   }
 
  private:
-  template <class Residual, class Row, class... Blocks>
-  void add_row(double weight, const Residual& residual, const Row& row, const Blocks&... blocks) {
-    if (row.at < 0) return;
-    const auto Jt = (weight * row.J.transpose()).eval();
-    g_.segment(row.at, Jt.rows()) += Jt * residual;
-    (add_product(row.at, Jt, blocks), ...);
-  }
-
   template <class Transposed, class Column>
   void add_product(Eigen::Index row, const Transposed& Jt, const Column& column) {
     if (column.at < 0 || column.at > row) return;
-    const auto product = (Jt * column.J).eval();
-    for (Eigen::Index j = 0; j < product.cols(); ++j)
-      for (Eigen::Index i = column.at == row ? j : 0; i < product.rows(); ++i)
-        entries_.emplace_back(static_cast<int>(row + i), static_cast<int>(column.at + j), product(i, j));
+    for (Eigen::Index j = 0; j < column.J.cols(); ++j)
+      for (Eigen::Index i = column.at == row ? j : 0; i < Jt.rows(); ++i) {
+        double product = Jt(i, 0) * column.J(0, j);
+        for (Eigen::Index k = 1; k < Jt.cols(); ++k) product += Jt(i, k) * column.J(k, j);
+        entries_.emplace_back(static_cast<int>(row + i), static_cast<int>(column.at + j), product);
+      }
   }
 
   const Layout& layout_;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd g_;
 };
-
-template <int Rows, int Columns>
-NormalEquations::Block<Rows, Columns> block(Eigen::Index at, const Eigen::Matrix<double, Rows, Columns>& J) {
-  return {at, J};
-}
 
 /// An estimate on its way to the optimum.
 class Solver {
@@ -212,18 +210,20 @@ class Solver {
     const Eigen::Matrix3d& information = leg_information_[i];
     const double weight = std::min(most_weight, robust_.weight(f.residual.dot(information * f.residual), 3));
     const Eigen::Matrix3d U = information.llt().matrixU();
-    equations.add(weight, (U * f.residual).eval(), block(Layout::pose(i), (U * f.J_before).eval()),
-                  block(Layout::pose(i + 1), (U * f.J_after).eval()),
-                  equations.calibration((U * f.J_calibration).eval()));
+    equations.add<3>(weight, U * f.residual,
+                     {{Layout::pose(i), U * f.J_before},
+                      {Layout::pose(i + 1), U * f.J_after},
+                      equations.calibration<3>(U * f.J_calibration)});
   }
 
   void add_sighting(const Sighting& sighting, double most_weight, NormalEquations& equations) const {
     const SightingFactor f = factor_of(estimate_, sighting);
     if (f.dof == 0) return;
     const double weight = std::min(most_weight, robust_.weight(f.residual.squaredNorm(), f.dof));
-    equations.add(weight, f.residual, block(Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose),
-                  block(layout_.landmark(static_cast<std::size_t>(sighting.landmark)), f.J_landmark),
-                  equations.calibration(f.J_calibration));
+    equations.add<2>(weight, f.residual,
+                     {{Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose},
+                      {layout_.landmark(static_cast<std::size_t>(sighting.landmark)), f.J_landmark},
+                      equations.calibration<2>(f.J_calibration)});
   }
 
   [[nodiscard]] LegFactor factor_of_leg(const Estimate& at, std::size_t i) const {
