@@ -20,7 +20,7 @@ std::array<double, 2> sum_roots(ParticleBlocks& blocks) {
 }
 
 TEST(ParticleBlocks, VisitsEveryParticleOnce) {
-  for (const int particles : {1, 255, 256, 257, 1000}) {
+  for (const int particles : {1, 255, 256, 257, 1000, 2049, 10'000, 300'001}) {
     ParticleBlocks blocks(particles, 2);
     std::vector<int> visits(static_cast<std::size_t>(particles));
     blocks.run([&](std::size_t begin, std::size_t end) {

@@ -293,11 +293,16 @@ std::optional<ekf::Sighting> EkfSlam::linearize_at_proposal(const ekf::Sighting&
 std::optional<ekf::Sighting> EkfSlam::sight(const Measurement& value, const View& here, const View& at,
                                             const Pose2& T_robot_sensor) {
   const auto distance_m = [&](const View& view) {
-    return (view.p_world.head<2>() - (view.T_world_robot * T_robot_sensor).position()).norm();
+    return (view.p_world.head<2>() - view.T_world_robot * T_robot_sensor.position()).norm();
   };
-  if (!(std::min(distance_m(here), distance_m(at)) > kMinDistance_m)) return std::nullopt;
+  // Only with first estimates are they different points.
+  const bool is_same = here.T_world_robot == at.T_world_robot && here.p_world == at.p_world;
+  if (!(distance_m(here) > kMinDistance_m)) return std::nullopt;
+  if (!is_same && !(distance_m(at) > kMinDistance_m)) return std::nullopt;
   const auto as = [&]<class Model>(Model, const typename Model::Value& z) {
-    return sight_as<Model>(z, Model::linearize(here.T_world_robot, T_robot_sensor, here.p_world.head<2>()),
+    const auto expected = Model::linearize(here.T_world_robot, T_robot_sensor, here.p_world.head<2>());
+    if (is_same) return sight_as<Model>(z, expected, expected);
+    return sight_as<Model>(z, expected,
                            Model::linearize(at.T_world_robot, T_robot_sensor, at.p_world.head<2>()));
   };
   if (const auto* range = std::get_if<Range>(&value)) return as(RangeModel{}, *range);

@@ -218,7 +218,7 @@ class EkfSlam final : public Filter {
   void settle_leftovers(std::span<const Observation> observations);
   [[nodiscard]] bool is_near_a_landmark(const Observation& observation) const;
   void update_existence();
-  [[nodiscard]] bool should_be_seen(int landmark) const;
+  [[nodiscard]] bool should_be_seen(int landmark, const Eigen::Vector2d& p_sensor) const;
   void merge_duplicates();
   void find_duplicates(int landmark, Duplicate& best);
   [[nodiscard]] ekf::Sighting difference(int landmark, int twin) const;

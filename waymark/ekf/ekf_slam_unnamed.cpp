@@ -216,19 +216,19 @@ void EkfSlam::update_existence() {
     seen.claimed_at_scan = unnamed_->scan;
     note_sigma(matched_[i]);
   }
-  const PoseEstimate pose = state_.pose();
-  const Eigen::Vector2d p_world = (pose.T_world_robot * T_robot_sensor_).position();
-  unnamed_->grid.visit_near(p_world, unnamed_->sensor.max_range_m, [&](int k) {
+  const Pose2 T_world_sensor = state_.pose().T_world_robot * T_robot_sensor_;
+  const Pose2 T_sensor_world = T_world_sensor.inverse();
+  const Eigen::Matrix2d R = T_sensor_world.rotation();
+  unnamed_->grid.visit_near(T_world_sensor.position(), unnamed_->sensor.max_range_m, [&](int k) {
     Landmark& landmark = landmarks_[as_index(k)];
-    if (landmark.existence && landmark.claimed_at_scan != unnamed_->scan && should_be_seen(k))
+    if (landmark.existence && landmark.claimed_at_scan != unnamed_->scan &&
+        should_be_seen(k, R * unnamed_->places[as_index(k)] + T_sensor_world.position()))
       landmark.existence->miss(unnamed_->model);
   });
 }
 
 /// It is in view by three standard deviations of what would be measured.
-bool EkfSlam::should_be_seen(int landmark) const {
-  const Pose2 T_world_sensor = state_.pose().T_world_robot * T_robot_sensor_;
-  const Eigen::Vector2d p_sensor = T_world_sensor.inverse() * unnamed_->places[as_index(landmark)];
+bool EkfSlam::should_be_seen(int landmark, const Eigen::Vector2d& p_sensor) const {
   if (!is_in_view(unnamed_->sensor, p_sensor)) return false;
   const RangeBearing expected{p_sensor.norm(), std::atan2(p_sensor.y(), p_sensor.x())};
   const Observation observation{{}, expected, noise_covariance(unnamed_->sensor, expected)};

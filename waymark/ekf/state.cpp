@@ -231,10 +231,15 @@ Eigen::Matrix2d State::common_covariance(const Sighting& a, const Sighting& b) c
   const Touched t = touched(a, 2);
   const Touched u = touched(b, 2);
   Eigen::Matrix2d common = Eigen::Matrix2d::Zero();
-  for (Eigen::Index i = 0; i < t.J.cols(); ++i)
-    for (Eigen::Index j = 0; j < u.J.cols(); ++j)
-      common += covariance(t.rows[static_cast<std::size_t>(i)], u.rows[static_cast<std::size_t>(j)]) *
-                t.J.col(i) * u.J.col(j).transpose();
+  for (Eigen::Index i = 0; i < t.J.cols(); ++i) {
+    const Eigen::Vector2d J_a = t.J.col(i).head<2>();
+    for (Eigen::Index j = 0; j < u.J.cols(); ++j) {
+      const Eigen::Vector2d part =
+          covariance(t.rows[static_cast<std::size_t>(i)], u.rows[static_cast<std::size_t>(j)]) * J_a;
+      common.col(0) += part * u.J(0, j);
+      common.col(1) += part * u.J(1, j);
+    }
+  }
   return common;
 }
 

@@ -16,7 +16,9 @@ std::optional<TrajectoryPoint> estimate_at(const Trajectory& estimate, std::size
 }
 
 PosePair pair_at_sensor(const TrajectoryPoint& point, const Pose2& T_robot_sensor, const Truth& truth) {
-  PosePair pair{point.stamp, point.pose * T_robot_sensor, point.covariance, truth};
+  PosePair pair{point.stamp, point.pose, point.covariance, truth};
+  if (T_robot_sensor == Pose2{}) return pair;
+  pair.estimate = point.pose * T_robot_sensor;
   if (pair.covariance) {
     const Eigen::Matrix3d F = compose_jacobian_left(point.pose, T_robot_sensor);
     pair.covariance = F * *point.covariance * F.transpose();

@@ -32,9 +32,13 @@ class ParticleBlocks {
   /// Calls job(begin, end) for every block of particles [begin, end).
   template <class Job>
   void run(Job&& job) {
-    const auto run_block = [&](int block) { job(begin(block), end(block)); };
-    if (blocks() >= kBlocksWorthThreads) return team_.run(blocks(), run_block);
-    for (int block = 0; block < blocks(); ++block) run_block(block);
+    const auto run_blocks = [&](int first, int last) {
+      for (int block = first; block < last; ++block) job(begin(block), end(block));
+    };
+    if (blocks() < kBlocksWorthThreads) return run_blocks(0, blocks());
+    const int portion = std::max(1, blocks() / (kPortionsPerThread * team_.size()));
+    team_.run((blocks() + portion - 1) / portion,
+              [&](int k) { run_blocks(k * portion, std::min((k + 1) * portion, blocks())); });
   }
 
   /// The sum over all blocks of job(begin, end) -> std::array<double, Terms>.
@@ -69,6 +73,9 @@ class ParticleBlocks {
  private:
   // Waking a thread takes as long as some thousand landmark updates.
   static constexpr int kBlocksWorthThreads = 8;
+  // Threads take portions of many blocks: taking one means a lock, for which they would queue. Few portions
+  // would let one thread wait for another at the end.
+  static constexpr int kPortionsPerThread = 16;
 
   // Whole cache lines, so that threads do not write to the same one.
   struct alignas(64) PartialSum {

@@ -63,10 +63,16 @@ void Particles::set_pose(int i, const Pose2& T_world_robot) {
 }
 
 void Particles::make_weights_equal() {
-  std::ranges::fill(log_weights(), 0.0);
-  std::ranges::fill(weights(), 1.0 / count_);
-  std::fill(weight_.data() + size(), weight_.data() + padded(count_), 0.0);
+  make_weights_equal(0, size());
+  clear_padding();
 }
+
+void Particles::make_weights_equal(std::size_t begin, std::size_t end) {
+  std::fill(log_weight_.data() + begin, log_weight_.data() + end, 0.0);
+  std::fill(weight_.data() + begin, weight_.data() + end, 1.0 / count_);
+}
+
+void Particles::clear_padding() { std::fill(weight_.data() + size(), weight_.data() + padded(count_), 0.0); }
 
 void Particles::replace_by_ancestors(std::span<const std::int32_t> ancestors, ParticleBlocks& blocks) {
   count_ = static_cast<int>(ancestors.size());
@@ -77,8 +83,9 @@ void Particles::replace_by_ancestors(std::span<const std::int32_t> ancestors, Pa
       if (from == i) continue;
       for (auto* column : {&x_m_, &y_m_, &theta_rad_}) (*column)[i] = (*column)[from];
     }
+    make_weights_equal(begin, end);
   });
-  make_weights_equal();
+  clear_padding();
 }
 
 bool normalise_weights(Particles& p, ParticleBlocks& blocks) {

@@ -43,6 +43,8 @@ class Particles {
   void replace_by_ancestors(std::span<const std::int32_t> ancestors, ParticleBlocks& blocks);
 
  private:
+  void make_weights_equal(std::size_t begin, std::size_t end);
+  void clear_padding();
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(count_); }
 
   int count_;
