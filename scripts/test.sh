@@ -30,6 +30,7 @@ scripts/setup.sh --dev
 step "format, layout and pages"
 scripts/format.sh --check
 scripts/check_layout.sh
+scripts/check_equations.sh
 scripts/pages.sh --check
 step "release build"
 build ci

@@ -18,6 +18,7 @@ double way_m(const Motion& motion) {
 PoseEstimate propagate(const PoseEstimate& before, const Motion& motion) {
   const Eigen::Matrix3d F = compose_jacobian_left(before.T_world_robot, motion.increment);
   const Eigen::Matrix3d G = compose_jacobian_right(before.T_world_robot);
+  // Vincke (6)
   const Eigen::Matrix3d P = F * before.covariance * F.transpose() + G * motion.covariance * G.transpose();
   return {before.T_world_robot * motion.increment, 0.5 * (P + P.transpose())};
 }

@@ -58,7 +58,7 @@ ekf::Sighting sight_as(const typename Model::Value& z, const Linearization<Model
                        const Linearization<Model::kDim>& jacobians) {
   ekf::Sighting sighting;
   sighting.rows = Model::kDim;
-  sighting.nu.head<Model::kDim>() = Model::innovation(z, expected.predicted);
+  sighting.nu.head<Model::kDim>() = Model::innovation(z, expected.predicted);  // Vincke (10)
   sighting.H_pose.topRows<Model::kDim>() = jacobians.H_pose;
   sighting.H_landmark.topLeftCorner<Model::kDim, 2>() = jacobians.H_landmark;
   return sighting;

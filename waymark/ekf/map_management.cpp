@@ -23,7 +23,7 @@ double information_gain(const PoseSighting& sighting) {
 }
 
 double article_score(const PoseSighting& sighting) {
-  const Eigen::Matrix<double, 3, 2> K_pose = sighting.C_pose * sighting.S.inverse();
+  const Eigen::Matrix<double, 3, 2> K_pose = sighting.C_pose * sighting.S.inverse();  // Vincke (12)
   return 3.0 - (K_pose * sighting.H_pose).trace();
 }
 

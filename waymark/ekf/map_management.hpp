@@ -23,7 +23,7 @@ struct PoseSighting {
 /// all units. 1e-12 I is added to P, which is singular at a known start. 0 if S is not positive definite.
 [[nodiscard]] double information_gain(const PoseSighting& sighting);
 
-/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2009): 3 for a
+/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2011): 3 for a
 /// sighting that tells nothing. It adds metres to radians, and is kept for comparison.
 [[nodiscard]] double article_score(const PoseSighting& sighting);
 

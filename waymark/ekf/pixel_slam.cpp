@@ -110,7 +110,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
 void PixelSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_, PixelBlock::kPredict);
   in_picture_ = false;
-  if (!is_still(motion) && is_finite(motion)) map_.state().predict(motion);
+  if (!is_still(motion) && is_finite(motion)) map_.state().predict(motion);  // Vincke Algorithm 1
   timer.finish(PixelBlock::kPredict);
 }
 
@@ -339,7 +339,7 @@ const Correction& PixelSlam::correct(std::span<const Observation> observations) 
   innovations_.assign(observations.size(), {});
   for (std::size_t i = 0; i < observations.size(); ++i) sort_out(i, observations[i]);
   timer.finish(PixelBlock::kJacobians);
-  update(observations);
+  update(observations);  // Vincke Algorithm 1
   settle_rays();
   timer.finish(PixelBlock::kEstimate);
   for (std::size_t i = 0; i < observations.size(); ++i)
@@ -416,6 +416,7 @@ std::optional<Eigen::Matrix2d> PixelSlam::settle(std::size_t index, const Observ
   if (!seen) return std::nullopt;
   ekf::Sighting& sighting = seen->sighting;
   sighting.R = noise(observation);
+  // Vincke (10)
   sighting.nu = pixel_of(observation) - seen->predicted - map_.state().expected(sighting.errors);
   const Eigen::Matrix2d S = map_.state().innovation_covariance(sighting);
   const auto nis = mahalanobis_squared<2>(sighting.nu, S);
@@ -613,7 +614,7 @@ void PixelSlam::weigh(std::size_t index, std::span<const Observation> observatio
   Innovation& innovation = innovations_[index];
   innovation.outcome = least_nis <= gate_ ? Outcome::kMatched : Outcome::kGated;
   if (innovation.outcome == Outcome::kGated) return;
-  candidate.depths.take();
+  candidate.depths.take();  // Vincke Algorithm 1
   ++candidate.matches;
   const auto [mean, sigma] = candidate.depths.depth();
   const bool patient = options_.init == ekf::Initialization::kArticle;

@@ -153,6 +153,7 @@ class PixelSlam final : public Filter {
   std::vector<ekf::Sighting> refined_;   // linearised where the update leads
   std::vector<LandmarkId> removed_;
   Correction correction_;
+  // Vincke Table 1
   FunctionBlocks blocks_{"FB1 predict",  "FB3 project", "FB5 Jacobians",
                          "FB6 estimate", "FB8 weights", "FB9 add"};
 };

@@ -145,12 +145,13 @@ void State::place_robot(const PoseEstimate& pose) {
 
 void State::predict(const Motion& motion, const ErrorTerms& errors) {
   const PoseEstimate before = pose();
-  const Pose2 after = before.T_world_robot * motion.increment;
+  const Pose2 after = before.T_world_robot * motion.increment;  // Vincke (3)
   // F's heading column is J times the displacement between the points of linearisation.
   const Eigen::Vector2d phi = perpendicular(after.position() - linearization_pose().position());
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
   F.block<2, 1>(0, 2) = phi;
   const Eigen::Matrix3d G = compose_jacobian_right(linearization_pose());
+  // Vincke (6)
   const Eigen::Matrix3d P_rr = F * before.covariance * F.transpose() + G * motion.covariance * G.transpose();
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j) P_[i * ld_ + j] = P_rr(static_cast<int>(i), static_cast<int>(j));
@@ -200,7 +201,7 @@ Eigen::Vector2d State::join_robot_rows() {
   double* row_x = P_.data();
   double* row_y = &P_[ld_];
   const double* row_theta = &P_[2 * ld_];
-  for (std::size_t j = 3; j < size(); ++j) {
+  for (std::size_t j = 3; j < size(); ++j) {  // Vincke (6)
     row_x[j] += pending_phi_.x() * row_theta[j];
     row_y[j] += pending_phi_.y() * row_theta[j];
   }
@@ -224,7 +225,7 @@ Touched State::touched(const Sighting& sighting, int rows) const {
 }
 
 Eigen::Matrix2d State::innovation_covariance(const Sighting& sighting) const {
-  return common_covariance(sighting, sighting) + sighting.R;
+  return common_covariance(sighting, sighting) + sighting.R;  // Vincke (11)
 }
 
 Eigen::Matrix2d State::common_covariance(const Sighting& a, const Sighting& b) const {
@@ -269,7 +270,7 @@ bool State::propose(std::span<const Sighting> sightings) {
   if (!factorize(static_cast<int>(rows))) return false;
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows, W_.data(), ld_, size());
   std::fill_n(dx_.data(), size(), 0.0);
-  kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), updated_rows());
+  kernels::add_scaled_rows(dx_.data(), W_.data(), ld_, rows, nu_.data(), updated_rows());  // Vincke (12)
   std::fill(&dx_[updated_rows()], &dx_[size()], 0.0);  // the kernel goes on to the end of its vector
   return true;
 }
@@ -395,6 +396,7 @@ void State::form_innovation_covariance(std::span<const Sighting> sightings, int 
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
       for (int r = 0; r < sighting.rows; ++r) {
         double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
+        // Vincke (11)
         for (int k = 0; k < t.J.cols(); ++k) s += c[t.rows[static_cast<std::size_t>(k)]] * t.J(r, k);
         S_(i, column + r) = s;
       }
@@ -417,7 +419,7 @@ bool State::factorize(int rows) {
 }
 
 void State::apply_additively() {
-  for (std::size_t j = 0; j < size(); ++j) x_[j] += dx_[j];
+  for (std::size_t j = 0; j < size(); ++j) x_[j] += dx_[j];  // Vincke (12)
   x_[2] = wrap_angle(x_[2]);
   if (consistency_ == Consistency::kStandard) linearization_pose_ = {x_[0], x_[1], x_[2]};
   textbook_ ? correct_covariance_by_textbook() : correct_covariance(false);
@@ -430,7 +432,7 @@ void State::apply_invariantly() {
   const Eigen::Matrix2d V = turn_jacobian(turn);
   std::fill_n(shear_d_.data(), size(), 0.0);
   const auto move = [&](std::size_t at) {
-    const Eigen::Vector2d moved = V * Eigen::Vector2d(dx_[at], dx_[at + 1]);
+    const Eigen::Vector2d moved = V * Eigen::Vector2d(dx_[at], dx_[at + 1]);  // Vincke (12)
     x_[at] += moved.x();
     x_[at + 1] += moved.y();
     shear_d_[at] = -moved.y();
@@ -463,11 +465,11 @@ void State::prepare_shear() {
 }
 
 void State::correct_covariance(bool shear) {
-  if (held_)
+  if (held_)  // Vincke (12)
     return kernels::symmetric_downdate(P_.data(), ld_, size(), W_.data(), ld_, rows_, {0, updated_rows()});
   if (shear) prepare_shear();
   const int bands = size() < kParallelSize ? 1 : team_.size();
-  team_.run(bands, [&](int band) {
+  team_.run(bands, [&](int band) {  // Vincke (12)
     const auto range =
         kernels::triangle_band(size(), static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
     if (shear)
@@ -583,7 +585,7 @@ void State::remove(int index) {
 std::size_t State::place(int i) const { return static_cast<std::size_t>(i) + (i < 3 ? 0 : head_ - 3); }
 
 Eigen::VectorXd State::mean() const {
-  Eigen::VectorXd x(3 + dimension_ * landmarks_);
+  Eigen::VectorXd x(3 + dimension_ * landmarks_);  // Vincke (1)
   for (int i = 0; i < x.size(); ++i) x[i] = x_[place(i)];
   return x;
 }
@@ -592,7 +594,7 @@ Eigen::MatrixXd State::covariance() const {
   const int n = 3 + dimension_ * landmarks_;
   Eigen::MatrixXd full(n, n);
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) full(i, j) = covariance(place(i), place(j));
+    for (int j = 0; j < n; ++j) full(i, j) = covariance(place(i), place(j));  // Vincke (2)
   return full;
 }
 

@@ -56,10 +56,10 @@ bool TextbookUpdate::solve() {
   multiply_transposed(P, H, PHt_);
   multiply(H, PHt_, S_);
   for (std::size_t i = 0; i < S_.rows(); ++i)
-    for (std::size_t j = 0; j < S_.rows(); ++j) S_(i, j) += R(i, j);
+    for (std::size_t j = 0; j < S_.rows(); ++j) S_(i, j) += R(i, j);  // Vincke (11)
   if (!invert_innovation_covariance()) return false;
-  multiply(PHt_, S_inverse_, K_);
-  multiply(K_, nu, dx);
+  multiply(PHt_, S_inverse_, K_);  // Vincke (12)
+  multiply(K_, nu, dx);            // Vincke (12)
   return true;
 }
 
@@ -91,7 +91,7 @@ void TextbookUpdate::correct() {
   multiply(K_, H, I_KH_);
   for (std::size_t i = 0; i < I_KH_.rows(); ++i)
     for (std::size_t j = 0; j < I_KH_.rows(); ++j) I_KH_(i, j) = (i == j ? 1.0 : 0.0) - I_KH_(i, j);
-  multiply(I_KH_, P, P_new_);
+  multiply(I_KH_, P, P_new_);  // Vincke (12)
   std::swap(P, P_new_);
 }
 

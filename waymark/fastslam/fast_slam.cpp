@@ -656,7 +656,7 @@ Eigen::MatrixXd FastSlam::joint_covariance(const Pose2& T_world_robot, const std
       deviation.segment<2>(3 + 2 * k) = m.mean - landmarks.segment<2>(2 * k);
       P.block<2, 2>(3 + 2 * k, 3 + 2 * k) += w * m.covariance;
     }
-    P += w * deviation * deviation.transpose();
+    P += w * deviation * deviation.transpose();  // Francisco (2)
   }
   return P;
 }

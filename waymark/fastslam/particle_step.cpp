@@ -94,6 +94,7 @@ kernels::Increment increment_of(const Motion& motion) {
   A(0, 2) = d.y_m;
   A(1, 2) = -d.x_m;
   const Eigen::Matrix3f P = (A * motion.covariance * A.transpose()).cast<float>();
+  // Francisco (1)
   return {narrow(d.x_m), narrow(d.y_m), narrow(d.theta_rad), P(0, 0), P(0, 1), P(0, 2), P(1, 1),
           P(1, 2),       P(2, 2)};
 }
@@ -110,8 +111,8 @@ void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& ori
     kernels::fill_increments(increment, scratch.increments(), range.count);
     for (const AcceptedSighting& each : sightings)
       if (each.shapes_motion) condition_block(each, increment, log_weight, scratch, range);
-    if (moves) draw_block(particles, increment, key, scratch, range);
-    update_block(sightings, log_weight, scratch, range);
+    if (moves) draw_block(particles, increment, key, scratch, range);  // Francisco (3)
+    update_block(sightings, log_weight, scratch, range);               // Francisco (4)
   });
 }
 

@@ -340,6 +340,7 @@ HWY_INLINE Updated<T> update2(const Look2<T>& l, const Gaussian2<T>& m) {
            part_m * m.aa + part_R * (xx * l.R_aa - two_xy_R + yy * l.R_tt),
            part_m * m.ab + part_R * (xy * (l.R_aa - l.R_tt) + (xx - yy) * l.R_at),
            part_m * m.bb + part_R * (yy * l.R_aa + two_xy_R + xx * l.R_tt)},
+          // Francisco (7)
           T(-0.5F) * (l.nu_a * f_a + l.nu_t * f_t + logarithm(det_Z * l.ray.inverse_r * l.ray.inverse_r))};
 }
 
@@ -356,7 +357,7 @@ HWY_INLINE Updated<T> update1(const Look1<T>& l, const Gaussian2<T>& m) {
   const T part_h = determinant(m) * factor;
   return {{m.a + s_a * f, m.b + s_b * f, part_m * m.aa + part_h * l.h_b * l.h_b,
            part_m * m.ab - part_h * l.h_a * l.h_b, part_m * m.bb + part_h * l.h_a * l.h_a},
-          T(-0.5F) * (l.nu * f + logarithm(S))};
+          T(-0.5F) * (l.nu * f + logarithm(S))};  // Francisco (7)
 }
 
 /// P g for a row g of three.
@@ -399,7 +400,7 @@ HWY_INLINE Conditioned<T> condition1(const Gaussian3<T>& d, const Column3<T>& g,
   const Column3<T> k{p.x * factor, p.y * factor, p.t * factor};
   return {{d.x + p.x * f, d.y + p.y * f, d.t + p.t * f, d.xx - k.x * p.x, d.xy - k.x * p.y, d.xt - k.x * p.t,
            d.yy - k.y * p.y, d.yt - k.y * p.t, d.tt - k.t * p.t},
-          T(-0.5F) * (nu * f + logarithm(L))};
+          T(-0.5F) * (nu * f + logarithm(L))};  // Francisco (7)
 }
 
 /// The rows of a range-bearing look by the robot's increment.
@@ -443,6 +444,7 @@ HWY_INLINE Conditioned<T> condition2(const Gaussian3<T>& d, const Rows2<T>& g, c
   return {{d.x + p.x * f_a + q.x * f_t, d.y + p.y * f_a + q.y * f_t, d.t + p.t * f_a + q.t * f_t,
            d.xx - kx.x * p.x - kx.y * q.x, d.xy - kx.x * p.y - kx.y * q.y, d.xt - kx.x * p.t - kx.y * q.t,
            d.yy - ky.x * p.y - ky.y * q.y, d.yt - ky.x * p.t - ky.y * q.t, d.tt - kt.x * p.t - kt.y * q.t},
+          // Francisco (7)
           T(-0.5F) * (l.nu_a * f_a + l.nu_t * f_t + logarithm(det_L * l.ray.inverse_r * l.ray.inverse_r))};
 }
 

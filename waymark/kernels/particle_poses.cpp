@@ -107,6 +107,7 @@ HWY_INLINE void draw_all(const IncrementColumns& increments, const Increment& ex
   for (std::size_t i = 0; i < count; i += width_of<T>()) {
     const Pose<T> before = load_pose<T>(robots, i);
     const Column3<T> d =
+        // Francisco (5)
         draw_from(load_increment<T>(increments, i), load<T>(n0, i), load<T>(n1, i), load<T>(n2, i));
     const Pose<T> swung = moved(before, d.x, d.y, d.t);
     const Pose<T> after = moved(swung, T(expected.x), T(expected.y), T(expected.t));

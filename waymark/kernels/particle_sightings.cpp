@@ -339,7 +339,7 @@ HWY_INLINE void condition_range(const Sighting& sighting, const Increment& expec
                                      ? condition_by_modes(s, from, pose, d, range.begin + i, Way())
                                      : condition(Way::look(s, from, m, range.begin + i), from, pose, d, m);
     store_increment(after.d, increments, i);
-    add_scaled(after.log_likelihood, evidence, log_weight + i);
+    add_scaled(after.log_likelihood, evidence, log_weight + i);  // Francisco (6)
   }
 }
 
@@ -358,7 +358,7 @@ HWY_INLINE void update_range(const Sighting& s, const PoseColumns& sensors, doub
     const Gaussian2<T> m = load_gaussian<T>(gaussian, range.begin + i);
     const Updated<T> after = update(Way::look(s, from, m, range.begin + i), m);
     store_gaussian(possible(s, after.m, Way()), gaussian, range.begin + i);
-    if (log_weight != nullptr) add_scaled(after.log_likelihood, evidence, log_weight + i);
+    if (log_weight != nullptr) add_scaled(after.log_likelihood, evidence, log_weight + i);  // Francisco (6)
   }
 }
 
@@ -426,7 +426,7 @@ HWY_INLINE void update_modes_range(const Sighting& s, const PoseColumns& sensors
                                    double* log_weight, ParticleRange range) {
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const T log_likelihood = update_modes<T, Way>(s, load_sensor<T>(sensors, i), range.begin + i);
-    if (log_weight != nullptr) add_scaled(log_likelihood, evidence, log_weight + i);
+    if (log_weight != nullptr) add_scaled(log_likelihood, evidence, log_weight + i);  // Francisco (6)
   }
 }
 

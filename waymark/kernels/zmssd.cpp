@@ -207,7 +207,7 @@ HWY_INLINE void finish(const ZmssdPatch& patch, int begin, int end, const Band& 
     const auto products = hn::BitCast(d32, hn::LoadU(signed32, band.products + u));
     const auto ssd = hn::Sub(hn::Add(patch_squares, squares), hn::Add(products, products));
     const auto shift = hn::Sub(patch_sum, hn::PromoteTo(d32, sum));
-    hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + (u - begin));
+    hn::Store(hn::Sub(hn::Mul(n, ssd), hn::Mul(shift, shift)), d32, all + (u - begin));  // Vincke (16)
   };
   for (int u = begin; u < end; u += 2 * half) {
     auto sum = hn::Zero(d16);
@@ -298,7 +298,8 @@ std::uint32_t zmssd(const std::uint8_t* patch, std::ptrdiff_t patch_stride, cons
       squares += difference * difference;
     }
   }
-  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);
+  // Vincke (14)
+  return static_cast<std::uint32_t>(std::int64_t{size} * size * squares - sum * sum);  // Vincke (15)
 }
 
 void zmssd_search(const ZmssdPatch& patch, const std::uint8_t* pixels, std::ptrdiff_t stride,

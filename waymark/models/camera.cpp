@@ -82,7 +82,7 @@ std::optional<Projection> Camera::project(const Eigen::Vector3d& p_camera) const
   if (!(xy.squaredNorm() < max_radius2_)) return std::nullopt;
   const Eigen::Vector2d f(options_.fu_px, options_.fv_px), c(options_.cu_px, options_.cv_px);
   Projection image;
-  image.pixel = f.cwiseProduct(distort(xy)) + c;
+  image.pixel = f.cwiseProduct(distort(xy)) + c;  // Vincke (7)
   const Eigen::Matrix2d dpixel_dxy = f.asDiagonal() * distortion_jacobian(xy);
   image.dpixel_dpoint << dpixel_dxy / Z, dpixel_dxy * (-xy / Z);
   return image;
@@ -116,7 +116,7 @@ CameraPose Camera::pose(const Pose2& T_world_robot) const {
   const Eigen::Matrix3d turn{{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};  // dR/dth = turn R
   CameraPose pose;
   pose.R_camera_world = R_camera_robot_ * R_world_robot.transpose();
-  pose.p_world_camera = offset + Eigen::Vector3d(T_world_robot.x_m, T_world_robot.y_m, 0.0);
+  pose.p_world_camera = offset + Eigen::Vector3d(T_world_robot.x_m, T_world_robot.y_m, 0.0);  // Vincke (9)
   pose.dp_dpose << Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), turn * offset;
   pose.dR_camera_world_dth = pose.R_camera_world * turn.transpose();
   return pose;

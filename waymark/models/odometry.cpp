@@ -12,7 +12,7 @@ struct ChordRatio {
 };
 
 ChordRatio chord_ratio(double turn_rad, ArcModel model) {
-  if (model == ArcModel::kArticle) return {1.0, 0.0};
+  if (model == ArcModel::kArticle) return {1.0, 0.0};  // Vincke (4)
   if (std::abs(turn_rad) < 1e-4) return {1.0 - turn_rad * turn_rad / 24.0, -turn_rad / 12.0};
   const double k = std::sin(0.5 * turn_rad) / (0.5 * turn_rad);
   return {k, (std::cos(0.5 * turn_rad) - k) / turn_rad};
@@ -84,6 +84,7 @@ Result<void> check(const CarGeometry& car) {
 
 Pose2 arc_increment(const ArcStep& step, ArcModel model) {
   const double chord_m = step.distance_m * chord_ratio(step.turn_rad, model).value;
+  // Vincke (4)
   return {chord_m * std::cos(0.5 * step.turn_rad), chord_m * std::sin(0.5 * step.turn_rad),
           wrap_angle(step.turn_rad)};
 }
@@ -131,7 +132,7 @@ Motion turned_as_measured(const Motion& motion, double turn_rad, const OdometryO
 ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels) {
   const double left_m = wheels.left_radius_m * increment.left_rad;
   const double right_m = wheels.right_radius_m * increment.right_rad;
-  return {0.5 * (right_m + left_m), (right_m - left_m) / wheels.track_m};
+  return {0.5 * (right_m + left_m), (right_m - left_m) / wheels.track_m};  // Vincke (5)
 }
 
 Eigen::Matrix2d wheel_jacobian(const WheelGeometry& wheels) {

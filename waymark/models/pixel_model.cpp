@@ -8,12 +8,12 @@ namespace waymark {
 std::optional<PixelLinearization> observe_point(const Camera& camera, const CameraPose& camera_pose,
                                                 const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d from_camera = p_world - camera_pose.p_world_camera;
-  const Eigen::Vector3d p_camera = camera_pose.R_camera_world * from_camera;
+  const Eigen::Vector3d p_camera = camera_pose.R_camera_world * from_camera;  // Vincke (9)
   if (!(p_camera.z() > kMinDepth_m)) return std::nullopt;
   const auto image = camera.project(p_camera);
   if (!image) return std::nullopt;
   PixelLinearization h;
-  h.predicted = image->pixel;
+  h.predicted = image->pixel;  // Vincke (8)
   h.p_camera = p_camera;
   h.dpixel_dpoint = image->dpixel_dpoint;
   h.H_landmark = image->dpixel_dpoint * camera_pose.R_camera_world;

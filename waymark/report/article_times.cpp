@@ -8,6 +8,7 @@ namespace {
 
 // As printed; means of both columns, so that their product is not the third.
 constexpr std::array kTimes{
+    // Vincke Table 2
     ArticleTime{"FB1", 93.0, 1.0, 93.0},      ArticleTime{"FB2", 3400.0, 1.0, 3400.0},
     ArticleTime{"FB3", 9.0, 19.0, 180.0},     ArticleTime{"FB4", 11.29, 233.0, 2630.0},
     ArticleTime{"FB5", 14.5, 4.5, 66.0},      ArticleTime{"FB6", 88845.0, 0.8, 70568.0},

@@ -21,7 +21,7 @@ bool CameraFrontEnd::fits(const ImageView& image) const {
 const Correction& CameraFrontEnd::see(const ImageView& image) {
   innovations_.clear();
   begin(image);
-  correct(tracker_.match());
+  correct(tracker_.match());  // Vincke Algorithm 1
   const Correction& last = correct(tracker_.finish());
   correction_ = {innovations_, last.removed};
   leave_time();

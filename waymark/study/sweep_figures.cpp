@@ -53,8 +53,8 @@ void set_landmarks(const std::vector<LandmarkEstimate>& map, Table& table) {
     mixture += landmark.covariance.topLeftCorner<2, 2>();
     mean += landmark.within.value_or(landmark.covariance).topLeftCorner<2, 2>();
   }
-  table.set("frobenius_mixture_m2", mixture.norm() / static_cast<double>(map.size()));
-  table.set("frobenius_mean_m2", mean.norm() / static_cast<double>(map.size()));
+  table.set("frobenius_mixture_m2", mixture.norm() / static_cast<double>(map.size()));  // Francisco (8)
+  table.set("frobenius_mean_m2", mean.norm() / static_cast<double>(map.size()));        // Francisco (8)
 }
 
 /// As a cell: without what would end it.

@@ -174,6 +174,7 @@ void Search::score_rows(const Task& task, int first_row, const WindowRow* rows, 
       const double zmssd = *score * zmssd_per_score;
       if (best && weight * zmssd >= best->score) continue;  // no place makes it better than this
       const double distance2 = task.distance2(u, v);
+      // Vincke (13)
       const double value = is_map ? weight * zmssd + 0.5 * distance2 : zmssd * std::exp(0.5 * distance2);
       if (!best || value < best->score) best = Match{u, v, zmssd, distance2, value};
     }

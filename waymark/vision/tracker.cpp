@@ -71,7 +71,7 @@ void Tracker::begin(const ImageView& image, const Pose2& T_world_robot,
   counts_.unusable += !is_usable_;
   behind_ = budget_behind();
   landmarks_.budget.start(duration_from_seconds(1e-3 * options_.budget.per_frame_ms) - behind_ - others_);
-  if (is_usable_) background_.start<&Tracker::look_behind>(this);
+  if (is_usable_) background_.start<&Tracker::look_behind>(this);  // Vincke Algorithm 5
 }
 
 void Tracker::copy(std::span<const Expectation> expectations) {

@@ -119,7 +119,7 @@ class Tracker {
   TrackerCounts counts_;
   Stopwatch stopwatch_behind_;  ///< of whichever thread look_behind() runs on
   Duration corners_took_{0}, candidates_took_{0};
-  FunctionBlocks blocks_{"FB2 corners", "FB4 match", "FB7 match candidates"};
+  FunctionBlocks blocks_{"FB2 corners", "FB4 match", "FB7 match candidates"};  // Vincke Table 1
   Background background_;  ///< last, so that its thread ends before what it works on
 };
 

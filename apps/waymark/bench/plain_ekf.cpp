@@ -46,9 +46,10 @@ void PlainEkf::step(const Motion& motion, std::span<const Observation> observati
 void PlainEkf::predict(const Motion& motion) {
   const Eigen::Index rest = x_.size() - 3;
   const Eigen::Matrix3d P_robot = P_.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
-  const auto moved = propagate({pose(), P_robot}, motion);
+  const auto moved = propagate({pose(), P_robot}, motion);  // Vincke (3)
   const Eigen::Matrix3d F = compose_jacobian_left(pose(), motion.increment);
   P_.topLeftCorner<3, 3>() = moved.covariance;
+  // Vincke (6)
   for (Eigen::Index i = 0; i < 2; ++i) P_.col(i).tail(rest) += F(i, 2) * P_.col(2).tail(rest);
   if (form_ == Form::kTextbook) P_.topRightCorner(2, rest) = P_.bottomLeftCorner(rest, 2).transpose();
   x_.head<3>() << moved.T_world_robot.x_m, moved.T_world_robot.y_m, moved.T_world_robot.theta_rad;
@@ -57,6 +58,7 @@ void PlainEkf::predict(const Motion& motion) {
 PlainEkf::Row PlainEkf::linearize(const Observation& observation) const {
   const Eigen::Index at = 3 + 2 * observation.id->number;
   const auto linear = RangeBearingModel::linearize(pose(), Pose2{}, x_.segment<2>(at));
+  // Vincke (10)
   const auto nu = RangeBearingModel::innovation(std::get<RangeBearing>(observation.value), linear.predicted);
   return {at, nu, linear.H_pose, linear.H_landmark};
 }
@@ -74,10 +76,10 @@ void PlainEkf::update_textbook(std::span<const Observation> observations) {
     R.block<2, 2>(i, i) = *observation.covariance;
     nu.segment<2>(i) = row.nu;
   }
-  const Matrix S = H * P_ * H.transpose() + R;
-  const Matrix K = P_ * H.transpose() * S.inverse();
-  move(K * nu);
-  P_ = (Matrix::Identity(x_.size(), x_.size()) - K * H) * P_;
+  const Matrix S = H * P_ * H.transpose() + R;                 // Vincke (11)
+  const Matrix K = P_ * H.transpose() * S.inverse();           // Vincke (12)
+  move(K * nu);                                                // Vincke (12)
+  P_ = (Matrix::Identity(x_.size(), x_.size()) - K * H) * P_;  // Vincke (12)
 }
 
 /// Column j of the whole covariance from its lower triangle.
@@ -109,12 +111,12 @@ void PlainEkf::update_by_rank(std::span<const Observation> observations) {
   for (Eigen::Index i = 0; i < D; i += 2) {
     const Row& row = rows[static_cast<std::size_t>(i / 2)];
     S.middleRows<2>(i) = row.H_pose * PHt.topRows<3>() + row.H_landmark * PHt.middleRows<2>(row.at);
-    S.block<2, 2>(i, i) += *observations[static_cast<std::size_t>(i / 2)].covariance;
+    S.block<2, 2>(i, i) += *observations[static_cast<std::size_t>(i / 2)].covariance;  // Vincke (11)
   }
   const Eigen::LLT<Matrix> llt(S);
-  move(PHt * llt.solve(nu));
+  move(PHt * llt.solve(nu));  // Vincke (12)
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(PHt);
-  P_.selfadjointView<Eigen::Lower>().rankUpdate(PHt, -1.0);
+  P_.selfadjointView<Eigen::Lower>().rankUpdate(PHt, -1.0);  // Vincke (12)
 }
 
 void PlainEkf::move(const Vector& dx) {

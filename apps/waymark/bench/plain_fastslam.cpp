@@ -26,6 +26,7 @@ void PlainFastSlam::step(const Motion& motion, std::span<const Observation> obse
   for (Particle& particle : particles_) {
     const Eigen::Vector3d n = L * Eigen::Vector3d(random_.normal(), random_.normal(), random_.normal());
     const Pose2& d = motion.increment;
+    // Francisco (5)
     particle.T_world_robot = particle.T_world_robot * Pose2{d.x_m + n[0], d.y_m + n[1], d.theta_rad + n[2]};
     for (const Observation& each : observations) update(particle, each);
   }
@@ -45,7 +46,8 @@ void PlainFastSlam::update(Particle& particle, const Observation& observation) {
   const Eigen::Matrix2d PHt = landmark.covariance * H.transpose();
   const Eigen::Matrix2d Z = H * PHt + *observation.covariance;
   const Eigen::Matrix2d K = PHt * Z.inverse();
-  particle.log_weight -= 0.5 * (nu.dot(Z.inverse() * nu) + std::log(Z.determinant()));
+  // Francisco (6)
+  particle.log_weight -= 0.5 * (nu.dot(Z.inverse() * nu) + std::log(Z.determinant()));  // Francisco (7)
   landmark.mean += K * nu;
   landmark.covariance -= K * PHt.transpose();
 }
