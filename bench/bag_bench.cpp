@@ -6,9 +6,9 @@
 #include <benchmark/benchmark.h>
 #include <lz4frame.h>
 
-#include "waymark/io/bag/bag_source.hpp"
-#include "waymark/io/bag/byte_stream.hpp"
-#include "waymark/io/bag/open_bag.hpp"
+#include "workbench/bags/bag_source.hpp"
+#include "workbench/bags/byte_stream.hpp"
+#include "workbench/bags/open_bag.hpp"
 
 namespace waymark {
 namespace {

@@ -6,9 +6,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "waymark/io/image_file.hpp"
 #include "waymark/markers/aruco_detector.hpp"
-#include "waymark/sim/simulation.hpp"
+
+#include "workbench/logs/image_file.hpp"
+#include "workbench/sim/simulation.hpp"
 #ifdef WAYMARK_WITH_OPENCV
 #include "markers/opencv_aruco.hpp"
 #endif

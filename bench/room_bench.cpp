@@ -5,8 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "waymark/sim/film.hpp"
-#include "waymark/sim/rooms.hpp"
+#include "workbench/sim/film.hpp"
+#include "workbench/sim/rooms.hpp"
 
 namespace waymark::sim {
 namespace {

@@ -11,13 +11,14 @@
 
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/random.hpp"
-#include "waymark/io/image_file.hpp"
 #include "waymark/kernels/highway_targets.hpp"
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/subpixel.hpp"
 #include "waymark/vision/tracker.hpp"
+
+#include "workbench/logs/image_file.hpp"
 
 #ifdef WAYMARK_WITH_OPENCV
 #include <opencv2/features2d.hpp>

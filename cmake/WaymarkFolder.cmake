@@ -1,12 +1,10 @@
-# A folder under waymark/ is one static library with one include directory of its own, so that an #include of a folder
-# that it does not depend on does not compile.
+# A folder of waymark/ (the engine) or workbench/ is one static library with one include directory of its own, so that an
+# #include of a folder that it does not depend on does not compile.
 
-# waymark_add_folders(): adds what WAYMARK_FOLDERS lists and has a CMakeLists.txt, in that order.
-function(waymark_add_folders)
-  foreach(name IN LISTS WAYMARK_FOLDERS)
-    if(EXISTS "${PROJECT_SOURCE_DIR}/waymark/${name}/CMakeLists.txt")
-      add_subdirectory("waymark/${name}" "folders/${name}")
-    endif()
+# waymark_add_folders(<floor> <folders...>): adds the folders of a floor, which is a directory, in that order.
+function(waymark_add_folders floor)
+  foreach(name IN LISTS ARGN)
+    add_subdirectory("${PROJECT_SOURCE_DIR}/${floor}/${name}" "${PROJECT_BINARY_DIR}/folders/${name}")
   endforeach()
 endfunction()
 
@@ -23,27 +21,29 @@ function(waymark_folder name)
   waymark_check_arguments("waymark_folder(${name})")
   waymark_check_order(${name} "${arg_DEPENDS}")
 
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH floor)
+  cmake_path(GET floor FILENAME floor)
   set(include_dir "${PROJECT_BINARY_DIR}/include/${name}")
-  file(MAKE_DIRECTORY "${include_dir}/waymark")
-  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/waymark/${name}" "${include_dir}/waymark/${name}" SYMBOLIC)
+  file(MAKE_DIRECTORY "${include_dir}/${floor}")
+  file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${include_dir}/${floor}/${name}" SYMBOLIC)
 
   set(target waymark_${name})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(waymark::${name} ALIAS ${target})
   target_include_directories(
-    ${target} PUBLIC $<BUILD_INTERFACE:${include_dir}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    ${target} PUBLIC $<BUILD_INTERFACE:${include_dir}> $<INSTALL_INTERFACE:${WAYMARK_INSTALL_INCLUDE_${floor}}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
   list(TRANSFORM arg_DEPENDS PREPEND waymark:: OUTPUT_VARIABLE folders)
   target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
   waymark_warnings(${target})
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_record_reach(${name} "${arg_DEPENDS}")
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} WAYMARK_FLOOR ${floor})
   set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
 endfunction()
 
 # waymark_module(<name> FOLDER <folder> SOURCES <files...> LIBRARIES <imported targets...>)
-# The module waymark-<name>.so, which load_module() of waymark/core/module.hpp opens: at the top of the build tree, beside
+# The module waymark-<name>.so, which load_module() of workbench/config/module.hpp opens: at the top of the build tree, beside
 # the programs, and installed in lib/waymark/. It includes what <folder> can, but is linked with headers only: what is not
 # inline is in the program that loads it. Its target is waymark_module_<name>.
 function(waymark_module name)
@@ -143,13 +143,14 @@ macro(waymark_check_arguments who)
 endmacro()
 
 function(waymark_check_order name depends)
-  if(NOT name IN_LIST WAYMARK_FOLDERS)
-    message(FATAL_ERROR "waymark_folder(${name}): add '${name}' to WAYMARK_FOLDERS in the top CMakeLists.txt")
+  set(folders ${WAYMARK_ENGINE} ${WAYMARK_MARKERS} ${WAYMARK_WORKBENCH} ${WAYMARK_WORKSHOP})
+  if(NOT name IN_LIST folders)
+    message(FATAL_ERROR "waymark_folder(${name}): add '${name}' to the folders in the top CMakeLists.txt")
   endif()
   foreach(dependency IN LISTS depends)
     if(NOT TARGET waymark_${dependency})
       message(FATAL_ERROR "waymark_folder(${name}): DEPENDS on '${dependency}', which is no folder before '${name}'. "
-                          "A folder depends only on folders before it: ${WAYMARK_FOLDERS}")
+                          "A folder depends only on folders before it: ${folders}")
     endif()
   endforeach()
 endfunction()

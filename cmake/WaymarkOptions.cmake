@@ -3,7 +3,11 @@
 option(WAYMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(WAYMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(WAYMARK_BUILD_BENCH "Build the micro-benchmarks" OFF)
-option(WAYMARK_BUILD_FIGURES "Build waymark-figures, which prints the figures of docs/results.md" OFF)
+option(WAYMARK_BUILD_WORKBENCH "Build what reads, simulates, evaluates and shows, and the program; else the engine alone" ON)
+option(WAYMARK_BUILD_WORKSHOP "Build waymark-figures, which prints the figures of docs/results.md" OFF)
+if(WAYMARK_BUILD_TESTS)
+  set(WAYMARK_BUILD_WORKSHOP ON)  # it is tested, too
+endif()
 option(WAYMARK_BUILD_EXAMPLES "Test that the examples build and run against the installed library" ON)
 option(WAYMARK_WITH_OPENCV "Find boards and read videos in calibrate camera, by OpenCV where it is installed" ON)
 option(WAYMARK_WITH_APRILTAG "Find AprilTags in pictures, by libapriltag where it is installed" ON)

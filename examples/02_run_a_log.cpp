@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string>
 
-#include <waymark/slam/config.hpp>
-#include <waymark/slam/make_filter.hpp>
 #include <waymark/slam/pipeline.hpp>
+#include <workbench/run/config.hpp>
+#include <workbench/run/make_filter.hpp>
 
 int main(int argc, char** argv) {
   using namespace waymark;

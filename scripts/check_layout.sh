@@ -5,7 +5,7 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 folders=()
-for folder in waymark apps tests bench examples; do
+for folder in waymark workbench workshop apps tests bench examples; do
   if [ -d "$folder" ]; then folders+=("$folder"); fi
 done
 offences=0
@@ -21,17 +21,25 @@ complain() {
 
 complain 'an include must not leave its folder by a relative path' < <(
   grep -rnE --include='*.[ch]pp' '^\s*#\s*include\s*["<][^">]*\.\./' "${folders[@]}" || true)
-complain 'include our headers as "waymark/<folder>/<file>.hpp" and those of others as <...>' < <(
-  grep -rnE --include='*.[ch]pp' '^\s*#\s*include\s*"' waymark | grep -vE '"waymark/[a-z]+/' || true)
+floors=()
+for floor in waymark workbench workshop; do
+  if [ -d "$floor" ]; then floors+=("$floor"); fi
+done
+complain 'include our headers as "<floor>/<folder>/<file>.hpp" and those of others as <...>' < <(
+  grep -rnE --include='*.[ch]pp' '^\s*#\s*include\s*"' "${floors[@]}" |
+    grep -vE '"(waymark|workbench|workshop)/[a-z]+/' || true)
+complain 'the engine includes nothing of the workbench, and neither anything of the workshop' < <(
+  { grep -rnE --include='*.[ch]pp' '^\s*#\s*include\s*["<]work(bench|shop)/' waymark
+    grep -rnE --include='*.[ch]pp' '^\s*#\s*include\s*["<]workshop/' workbench apps; } 2>/dev/null || true)
 complain 'a header begins with #pragma once' < <(
   find "${folders[@]}" -name '*.hpp' -print0 | xargs -0 -r grep -L '^#pragma once' || true)
 # One place each, so that what is checked there holds everywhere.
 # only_in FILE PATTERN REASON
 only_in() {
-  complain "$3" < <(grep -rnE --include='*.[ch]pp' "$2" waymark apps 2>/dev/null | grep -v "^$1:" || true)
+  complain "$3" < <(grep -rnE --include='*.[ch]pp' "$2" "${floors[@]}" apps 2>/dev/null | grep -v "^$1:" || true)
 }
-only_in waymark/core/load_yaml.cpp 'YAML::Load' 'load_yaml() refuses what unfolds without end'
-only_in waymark/io/json_text.hpp '\.dump\(' 'json_text() takes names of any bytes'
+only_in workbench/config/load_yaml.cpp 'YAML::Load' 'load_yaml() refuses what unfolds without end'
+only_in workbench/logs/json_text.hpp '\.dump\(' 'json_text() takes names of any bytes'
 only_in waymark/core/threads.cpp 'std::(jthread|async)|std::thread [a-z_]*[({]|(thread|worker)[a-z]*_?\.emplace' \
   'start_threads() ends cleanly where a thread cannot be started'
 

@@ -41,7 +41,7 @@ while read -r sum file; do
 done < <(sources | xargs sha256sum .clang-tidy scripts/tidy.sh)
 while IFS=: read -r file include; do
   case "$include" in
-    waymark/* | apps/*) includes[$file]+=" $include" ;;
+    waymark/* | workbench/* | workshop/* | apps/*) includes[$file]+=" $include" ;;
     *) includes[$file]+=" tests/$include" ;;
   esac
 done < <(sources | xargs grep -oHP '^\s*#include "\K[^"]+')

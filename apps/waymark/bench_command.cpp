@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/json_text.hpp"
-
 #include "bench/camera_bench.hpp"
 #include "bench/ekf_bench.hpp"
 #include "bench/fastslam_bench.hpp"
 #include "bench/machine.hpp"
 #include "commands.hpp"
+#include "workbench/logs/json_text.hpp"
 
 namespace waymark::app {
 namespace {

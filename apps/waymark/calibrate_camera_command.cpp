@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "waymark/calibrate/camera_calibration.hpp"
-#include "waymark/calibrate/opencv.hpp"
-#include "waymark/io/camera_yaml.hpp"
-#include "waymark/io/files.hpp"
-#include "waymark/report/camera_report.hpp"
-
 #include "calibrate_commands.hpp"
+#include "workbench/calibrate/camera_calibration.hpp"
+#include "workbench/calibrate/opencv.hpp"
+#include "workbench/logs/camera_yaml.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/camera_report.hpp"
 
 namespace waymark::app {
 namespace {

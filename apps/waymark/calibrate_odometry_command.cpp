@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/log_calibration_report.hpp"
-
 #include "calibrate_commands.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/log_calibration_report.hpp"
 
 namespace waymark::app {
 namespace {

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/moving_study_report.hpp"
-#include "waymark/report/static_study_report.hpp"
-
 #include "calibrate_commands.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/moving_study_report.hpp"
+#include "workbench/report/static_study_report.hpp"
 
 namespace waymark::app {
 namespace {

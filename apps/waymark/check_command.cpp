@@ -7,12 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "waymark/eval/truth_check.hpp"
-#include "waymark/io/image_loader.hpp"
-#include "waymark/io/json_text.hpp"
-#include "waymark/report/results.hpp"
-
 #include "commands.hpp"
+#include "workbench/eval/truth_check.hpp"
+#include "workbench/logs/image_loader.hpp"
+#include "workbench/logs/json_text.hpp"
+#include "workbench/report/results.hpp"
 
 namespace waymark::app {
 namespace {

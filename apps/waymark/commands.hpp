@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include "waymark/core/result.hpp"
-#include "waymark/slam/config.hpp"
 
 #include "console.hpp"
+#include "workbench/run/config.hpp"
 
 namespace waymark::app {
 

@@ -4,12 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/report.hpp"
-#include "waymark/report/results.hpp"
-#include "waymark/report/run_report.hpp"
-
 #include "commands.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/report.hpp"
+#include "workbench/report/results.hpp"
+#include "workbench/report/run_report.hpp"
 
 namespace waymark::app {
 namespace {

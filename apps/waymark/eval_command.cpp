@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "waymark/eval/evaluate.hpp"
-#include "waymark/io/map_files.hpp"
-#include "waymark/io/pose_covariances.hpp"
-#include "waymark/io/tum.hpp"
-#include "waymark/report/metrics.hpp"
-
 #include "commands.hpp"
+#include "workbench/eval/evaluate.hpp"
+#include "workbench/logs/map_files.hpp"
+#include "workbench/logs/pose_covariances.hpp"
+#include "workbench/logs/tum.hpp"
+#include "workbench/report/metrics.hpp"
 
 namespace waymark::app {
 namespace {

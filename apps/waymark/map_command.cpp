@@ -6,11 +6,11 @@
 
 #include "waymark/association/join_maps.hpp"
 #include "waymark/core/angle.hpp"
-#include "waymark/io/map_files.hpp"
-#include "waymark/io/map_forms.hpp"
-#include "waymark/io/survey.hpp"
 
 #include "commands.hpp"
+#include "workbench/datasets/survey.hpp"
+#include "workbench/logs/map_files.hpp"
+#include "workbench/logs/map_forms.hpp"
 
 namespace waymark::app {
 namespace {

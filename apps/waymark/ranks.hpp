@@ -4,7 +4,8 @@
 #include <string>
 
 #include "waymark/core/result.hpp"
-#include "waymark/study/sweep.hpp"
+
+#include "workbench/study/sweep.hpp"
 
 namespace waymark::app {
 

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/results.hpp"
-
 #include "commands.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/results.hpp"
 
 namespace waymark::app {
 namespace {

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/log_writer.hpp"
-#include "waymark/sim/options.hpp"
-
 #include "commands.hpp"
+#include "workbench/logs/log_writer.hpp"
+#include "workbench/sim/options.hpp"
 
 namespace waymark::app {
 namespace {

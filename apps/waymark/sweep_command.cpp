@@ -7,14 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/sweep_report.hpp"
-#include "waymark/study/crew.hpp"
-#include "waymark/study/sweep.hpp"
-#include "waymark/study/sweep_summary.hpp"
-
 #include "commands.hpp"
 #include "ranks.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/sweep_report.hpp"
+#include "workbench/study/crew.hpp"
+#include "workbench/study/sweep.hpp"
+#include "workbench/study/sweep_summary.hpp"
 
 namespace waymark::app {
 namespace {

@@ -7,12 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/tune_report.hpp"
-#include "waymark/study/tune.hpp"
-#include "waymark/study/tune_text.hpp"
-
 #include "commands.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/tune_report.hpp"
+#include "workbench/study/tune.hpp"
+#include "workbench/study/tune_text.hpp"
 
 namespace waymark::app {
 namespace {

@@ -29,13 +29,5 @@ TEST(AssociationModel, ALandmarkMustExistToBeSeen) {
   EXPECT_NEAR(model.log_odds_of_sighting(0.5), std::log(0.4 / 0.6), 1e-12);
 }
 
-TEST(AssociationOptions, AreDescribedWithinTheirLimits) {
-  AssociationOptions options;
-  Schema schema;
-  describe(schema, options);
-  for (const std::string& key : schema.keys()) EXPECT_TRUE(schema.set(key, schema.value(key), "test")) << key;
-  EXPECT_FALSE(schema.set("association.false_alarm_probability", "1", "test"));
-}
-
 }  // namespace
 }  // namespace waymark

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/board_finder.hpp"
+#include "workbench/calibrate/board_finder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/board.hpp"
+#include "workbench/calibrate/board.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/camera_calibration.hpp"
+#include "workbench/calibrate/camera_calibration.hpp"
 
 #include <cmath>
 

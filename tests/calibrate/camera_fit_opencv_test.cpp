@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
-#include "waymark/calibrate/camera_fit.hpp"
-
 #include "photographed_board.hpp"
+#include "workbench/calibrate/camera_fit.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/camera_fit.hpp"
+#include "workbench/calibrate/camera_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

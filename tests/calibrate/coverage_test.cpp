@@ -1,4 +1,4 @@
-#include "waymark/calibrate/coverage.hpp"
+#include "workbench/calibrate/coverage.hpp"
 
 #include <gmock/gmock.h>
 

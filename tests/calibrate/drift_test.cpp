@@ -1,4 +1,4 @@
-#include "waymark/calibrate/drift.hpp"
+#include "workbench/calibrate/drift.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/edge_width.hpp"
+#include "workbench/calibrate/edge_width.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/findings.hpp"
+#include "workbench/calibrate/findings.hpp"
 
 #include <algorithm>
 

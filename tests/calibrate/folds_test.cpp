@@ -1,4 +1,4 @@
-#include "waymark/calibrate/folds.hpp"
+#include "workbench/calibrate/folds.hpp"
 
 #include <numeric>
 

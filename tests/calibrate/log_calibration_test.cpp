@@ -1,4 +1,4 @@
-#include "waymark/calibrate/log_calibration.hpp"
+#include "workbench/calibrate/log_calibration.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/moving_study.hpp"
+#include "workbench/calibrate/moving_study.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/name_groups.hpp"
+#include "workbench/calibrate/name_groups.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/opencv.hpp"
+#include "workbench/calibrate/opencv.hpp"
 
 #include <cstdlib>
 #include <string>
@@ -6,9 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "waymark/calibrate/video.hpp"
-
 #include "photographed_board.hpp"
+#include "workbench/calibrate/video.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "waymark/calibrate/simulated_board.hpp"
+#include "workshop/figures/simulated_board.hpp"
 
 namespace waymark::test {
 

@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "support/data_dir.hpp"
-#include "waymark/calibrate/camera_calibration.hpp"
+
+#include "workbench/calibrate/camera_calibration.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -1,10 +1,10 @@
-#include "waymark/calibrate/picture_source.hpp"
+#include "workbench/calibrate/picture_source.hpp"
 
 #include <fstream>
 
 #include <gmock/gmock.h>
 
-#include "waymark/io/image_file.hpp"
+#include "workbench/logs/image_file.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/plane_homography.hpp"
+#include "workbench/calibrate/plane_homography.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/projection_sigma.hpp"
+#include "workbench/calibrate/projection_sigma.hpp"
 
 #include <algorithm>
 

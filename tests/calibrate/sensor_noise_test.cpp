@@ -1,4 +1,4 @@
-#include "waymark/calibrate/sensor_noise.hpp"
+#include "workbench/calibrate/sensor_noise.hpp"
 
 #include <cmath>
 

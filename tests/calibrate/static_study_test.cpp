@@ -1,14 +1,14 @@
-#include "waymark/calibrate/static_study.hpp"
+#include "workbench/calibrate/static_study.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
+#include "support/io_support.hpp"
 #include "waymark/core/angle.hpp"
 #include "waymark/core/random.hpp"
-#include "waymark/io/files.hpp"
 
-#include "io/io_support.hpp"
+#include "workbench/logs/files.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -1,12 +1,11 @@
-#include "waymark/calibrate/two_cameras.hpp"
+#include "workbench/calibrate/two_cameras.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "waymark/calibrate/camera_calibration.hpp"
-
 #include "photographed_board.hpp"
+#include "workbench/calibrate/camera_calibration.hpp"
 
 namespace waymark::calibrate {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/video.hpp"
+#include "workbench/calibrate/video.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/view.hpp"
+#include "workbench/calibrate/view.hpp"
 
 #include <gtest/gtest.h>
 

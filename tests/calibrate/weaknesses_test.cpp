@@ -1,4 +1,4 @@
-#include "waymark/calibrate/weaknesses.hpp"
+#include "workbench/calibrate/weaknesses.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "waymark/calibrate/wheels.hpp"
+#include "workbench/calibrate/wheels.hpp"
 
 #include <gtest/gtest.h>
 

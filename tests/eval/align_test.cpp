@@ -1,4 +1,4 @@
-#include "waymark/eval/align.hpp"
+#include "workbench/eval/align.hpp"
 
 #include <vector>
 

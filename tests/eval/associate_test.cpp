@@ -1,4 +1,4 @@
-#include "waymark/eval/associate.hpp"
+#include "workbench/eval/associate.hpp"
 
 #include <gtest/gtest.h>
 

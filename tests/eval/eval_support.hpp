@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "waymark/core/random.hpp"
-#include "waymark/core/source.hpp"
 #include "waymark/core/trajectory.hpp"
-#include "waymark/eval/truth_track.hpp"
+
+#include "workbench/eval/truth_track.hpp"
+#include "workbench/logs/source.hpp"
 
 namespace waymark::eval::test {
 

@@ -1,4 +1,4 @@
-#include "waymark/eval/evaluate.hpp"
+#include "workbench/eval/evaluate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "waymark/eval/map_error.hpp"
+#include "workbench/eval/map_error.hpp"
 
 #include <gtest/gtest.h>
 

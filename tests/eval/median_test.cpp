@@ -1,4 +1,4 @@
-#include "waymark/eval/median.hpp"
+#include "workbench/eval/median.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "waymark/eval/nees.hpp"
+#include "workbench/eval/nees.hpp"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

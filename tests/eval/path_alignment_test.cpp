@@ -1,4 +1,4 @@
-#include "waymark/eval/path_alignment.hpp"
+#include "workbench/eval/path_alignment.hpp"
 
 #include <gtest/gtest.h>
 

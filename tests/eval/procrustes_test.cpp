@@ -1,4 +1,4 @@
-#include "waymark/eval/procrustes.hpp"
+#include "workbench/eval/procrustes.hpp"
 
 #include <gtest/gtest.h>
 

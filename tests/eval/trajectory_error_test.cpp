@@ -1,4 +1,4 @@
-#include "waymark/eval/trajectory_error.hpp"
+#include "workbench/eval/trajectory_error.hpp"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

@@ -1,11 +1,10 @@
-#include "waymark/eval/truth_check.hpp"
+#include "workbench/eval/truth_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "waymark/eval/map_error.hpp"
-
 #include "eval/eval_support.hpp"
+#include "workbench/eval/map_error.hpp"
 
 namespace waymark::eval {
 namespace {

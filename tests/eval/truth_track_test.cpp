@@ -1,4 +1,4 @@
-#include "waymark/eval/truth_track.hpp"
+#include "workbench/eval/truth_track.hpp"
 
 #include <limits>
 

@@ -612,15 +612,5 @@ TEST(FastSlam, ALandmarkThatComesBackInTimeHasNotLeftTheView) {
   EXPECT_LT(missed_m, 1.2 * seen_m);
 }
 
-TEST(FastSlam, OptionsAreDescribedWithTheirDefaults) {
-  FastSlamOptions options;
-  Schema schema;
-  describe(schema, options);
-  EXPECT_TRUE(schema.set("fastslam.particles", "400", "--set").ok());
-  EXPECT_EQ(options.particles, 400);
-  EXPECT_FALSE(schema.set("fastslam.particles", "0", "--set").ok());
-  EXPECT_FALSE(schema.set("fastslam.resample_below", "1.5", "--set").ok());
-}
-
 }  // namespace
 }  // namespace waymark

@@ -23,6 +23,7 @@ refused() {
   rm "$1"
 }
 refused sideways.hpp '#pragma once\n#include "../slam/pipeline.hpp"\n'
+refused upstairs.hpp '#pragma once\n#include "workbench/config/schema.hpp"\n'
 refused short.hpp '#pragma once\n#include "good.hpp"\n'
 refused unguarded.hpp 'int f();\n'
 refused good.cpp 'auto root = YAML::Load(text);\n'

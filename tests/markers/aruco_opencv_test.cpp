@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "support/data_dir.hpp"
-#include "waymark/io/image_file.hpp"
 #include "waymark/markers/aruco_codes.hpp"
 #include "waymark/markers/aruco_detector.hpp"
 #include "waymark/markers/black_border.hpp"
-#include "waymark/sim/simulation.hpp"
 
 #include "drawn_marker.hpp"
 #include "opencv_aruco.hpp"
+#include "workbench/logs/image_file.hpp"
+#include "workbench/sim/simulation.hpp"
 
 namespace waymark::markers {
 namespace {

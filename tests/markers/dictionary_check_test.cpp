@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "support/data_dir.hpp"
-#include "waymark/io/image_file.hpp"
+
+#include "workbench/logs/image_file.hpp"
 
 namespace waymark::markers {
 namespace {

@@ -9,7 +9,8 @@
 #include "waymark/core/random.hpp"
 #include "waymark/markers/planar_pose.hpp"
 #include "waymark/models/camera.hpp"
-#include "waymark/sim/marker_pattern.hpp"
+
+#include "workbench/sim/marker_pattern.hpp"
 
 namespace waymark::test {
 

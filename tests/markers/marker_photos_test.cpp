@@ -10,8 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "support/data_dir.hpp"
-#include "waymark/io/image_file.hpp"
 #include "waymark/markers/marker_detector.hpp"
+
+#include "workbench/logs/image_file.hpp"
 
 // The photographs of marker-photos, whose README lists what is in them.
 

@@ -140,16 +140,5 @@ TEST(Camera, PoseIsThatOfTheMountOnTheRobotWithItsDerivatives) {
   }
 }
 
-TEST(Camera, IsConfiguredByKeys) {
-  CameraOptions o;
-  Schema schema;
-  describe(schema, o);
-  ASSERT_TRUE(schema.set("camera.mount_pitch_deg", "12.5", "here").ok());
-  ASSERT_TRUE(schema.set("camera.k1", "-0.25", "here").ok());
-  EXPECT_EQ(o.mount.pitch_deg, 12.5);
-  EXPECT_EQ(o.distortion.k1, -0.25);
-  EXPECT_FALSE(schema.set("camera.fu_px", "0", "here").ok());
-}
-
 }  // namespace
 }  // namespace waymark

@@ -159,20 +159,5 @@ TEST(IsUsable, RefusesARangeOfZeroAndWhatItCannotMeasure) {
   EXPECT_FALSE(is_usable(LandmarkSensor{}, Pixel{10.0, 10.0}));
 }
 
-TEST(LandmarkSensor, DescribesItsKeys) {
-  LandmarkSensor sensor;
-  Schema schema;
-  describe(schema, sensor);
-  ASSERT_TRUE(schema.load_text(schema.to_yaml(), "defaults").ok()) << "a default is beyond its own limits";
-  for (const auto& key : schema.keys()) EXPECT_TRUE(key.starts_with("sensor.")) << key;
-  ASSERT_TRUE(schema.set("sensor.yaw_deg", "-90", "test").ok());
-  EXPECT_EQ(sensor.yaw_deg, -90.0);
-  EXPECT_FALSE(schema.set("sensor.range_sigma_m", "0", "test").ok()) << "S would not be positive definite";
-  EXPECT_EQ(sensor.detection_probability, 0.0) << "what is not reported says nothing, unless it is told";
-  ASSERT_TRUE(schema.set("sensor.detection_probability", "0.95", "test").ok());
-  EXPECT_EQ(sensor.detection_probability, 0.95);
-  EXPECT_FALSE(schema.set("sensor.detection_probability", "1", "test").ok()) << "one miss would rule all out";
-}
-
 }  // namespace
 }  // namespace waymark

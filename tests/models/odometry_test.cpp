@@ -391,17 +391,5 @@ TEST(CheckCar, NamesTheKeyThatIsMissing) {
   EXPECT_TRUE(check(CarGeometry{}).error().message.starts_with("car.wheel_base_m "));
 }
 
-TEST(OdometryOptions, DescribeTheirKeys) {
-  OdometryOptions options;
-  Schema schema;
-  describe(schema, options);
-  ASSERT_TRUE(schema.load_text(schema.to_yaml(), "defaults").ok()) << "a default is beyond its own limits";
-  ASSERT_TRUE(schema.set("motion.arc", "article", "test").ok());
-  EXPECT_EQ(options.arc, ArcModel::kArticle);
-  ASSERT_TRUE(schema.set("wheels.track_m", "0.32", "test").ok());
-  EXPECT_EQ(options.wheels.track_m, 0.32);
-  EXPECT_FALSE(schema.set("motion.turn_var_rad2_per_m", "-1e-3", "test").ok());
-}
-
 }  // namespace
 }  // namespace waymark

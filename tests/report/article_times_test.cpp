@@ -1,4 +1,4 @@
-#include "waymark/report/article_times.hpp"
+#include "workbench/report/article_times.hpp"
 
 #include <array>
 

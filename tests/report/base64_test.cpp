@@ -1,4 +1,4 @@
-#include "waymark/report/base64.hpp"
+#include "workbench/report/base64.hpp"
 
 #include <gtest/gtest.h>
 

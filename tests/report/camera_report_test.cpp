@@ -1,9 +1,9 @@
-#include "waymark/report/camera_report.hpp"
+#include "workbench/report/camera_report.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "browser.hpp"
+#include "support/browser.hpp"
 
 namespace waymark {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/report/decimate.hpp"
+#include "workbench/report/decimate.hpp"
 
 #include <algorithm>
 #include <cmath>

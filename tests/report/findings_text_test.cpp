@@ -1,4 +1,4 @@
-#include "waymark/report/findings_text.hpp"
+#include "workbench/report/findings_text.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

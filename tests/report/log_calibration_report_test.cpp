@@ -1,9 +1,9 @@
-#include "waymark/report/log_calibration_report.hpp"
+#include "workbench/report/log_calibration_report.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "browser.hpp"
+#include "support/browser.hpp"
 
 namespace waymark {
 namespace {

@@ -1,9 +1,9 @@
-#include "waymark/report/moving_study_report.hpp"
+#include "workbench/report/moving_study_report.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "browser.hpp"
+#include "support/browser.hpp"
 
 namespace waymark {
 namespace {

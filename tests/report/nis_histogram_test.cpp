@@ -1,4 +1,4 @@
-#include "waymark/report/nis_histogram.hpp"
+#include "workbench/report/nis_histogram.hpp"
 
 #include <cmath>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "waymark/report/noise_chart.hpp"
+#include "workbench/report/noise_chart.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

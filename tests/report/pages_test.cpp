@@ -1,4 +1,4 @@
-#include "waymark/report/pages.hpp"
+#include "workbench/report/pages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@ namespace waymark {
 namespace {
 
 TEST(Pages, HaveOnePlaceForTheirData) {
-  for (const auto page : {report_page(), sweep_page(), consistency_page(), camera_page()}) {
+  for (const auto page : {report_page(), sweep_page(), camera_page()}) {
     const auto at = page.find(kPageDataMark);
     ASSERT_NE(at, std::string_view::npos);
     EXPECT_EQ(page.find(kPageDataMark, at + 1), std::string_view::npos);

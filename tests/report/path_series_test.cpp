@@ -1,4 +1,4 @@
-#include "waymark/report/path_series.hpp"
+#include "workbench/report/path_series.hpp"
 
 #include <cmath>
 

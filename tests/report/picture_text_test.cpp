@@ -1,4 +1,4 @@
-#include "waymark/report/picture_text.hpp"
+#include "workbench/report/picture_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/report/report_json.hpp"
+#include "workbench/report/report_json.hpp"
 
 #include <algorithm>
 #include <cmath>

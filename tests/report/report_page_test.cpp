@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "waymark/report/pages.hpp"
+#include "support/browser.hpp"
 
-#include "browser.hpp"
 #include "sample_report.hpp"
+#include "workbench/report/pages.hpp"
 
 namespace waymark {
 namespace {

@@ -1,11 +1,10 @@
-#include "waymark/report/report.hpp"
+#include "workbench/report/report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "waymark/io/files.hpp"
-#include "waymark/report/pages.hpp"
-
 #include "sample_report.hpp"
+#include "workbench/logs/files.hpp"
+#include "workbench/report/pages.hpp"
 
 namespace waymark {
 namespace {

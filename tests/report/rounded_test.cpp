@@ -1,4 +1,4 @@
-#include "waymark/report/rounded.hpp"
+#include "workbench/report/rounded.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "waymark/report/report.hpp"
+#include "workbench/report/report.hpp"
 
 namespace waymark {
 

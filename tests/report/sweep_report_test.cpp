@@ -1,11 +1,11 @@
-#include "waymark/report/sweep_report.hpp"
+#include "workbench/report/sweep_report.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "browser.hpp"
+#include "support/browser.hpp"
 
 namespace waymark {
 namespace {

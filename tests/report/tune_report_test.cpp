@@ -1,13 +1,13 @@
-#include "waymark/report/tune_report.hpp"
+#include "workbench/report/tune_report.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "waymark/study/sweep_summary.hpp"
+#include "support/browser.hpp"
 
-#include "browser.hpp"
+#include "workbench/study/sweep_summary.hpp"
 
 namespace waymark {
 namespace {

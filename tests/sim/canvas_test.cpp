@@ -1,4 +1,4 @@
-#include "waymark/sim/canvas.hpp"
+#include "workbench/sim/canvas.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "waymark/sim/drive.hpp"
+#include "workbench/sim/drive.hpp"
 
 #include <algorithm>
 #include <cmath>

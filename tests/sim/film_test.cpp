@@ -1,11 +1,11 @@
-#include "waymark/sim/film.hpp"
+#include "workbench/sim/film.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "waymark/sim/rooms.hpp"
+#include "workbench/sim/rooms.hpp"
 
 namespace waymark::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/sim/landmark_sensor.hpp"
+#include "workbench/sim/landmark_sensor.hpp"
 
 #include <algorithm>
 #include <cmath>

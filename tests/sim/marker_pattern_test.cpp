@@ -1,4 +1,4 @@
-#include "waymark/sim/marker_pattern.hpp"
+#include "workbench/sim/marker_pattern.hpp"
 
 #include <set>
 #include <vector>

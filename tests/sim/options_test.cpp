@@ -1,4 +1,4 @@
-#include "waymark/sim/options.hpp"
+#include "workbench/sim/options.hpp"
 
 #include <functional>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "waymark/sim/path.hpp"
+#include "workbench/sim/path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "waymark/sim/renderer.hpp"
+#include "workbench/sim/renderer.hpp"
 
 #include <cmath>
 #include <optional>
@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "waymark/core/random.hpp"
-#include "waymark/sim/textures.hpp"
+
+#include "workbench/sim/textures.hpp"
 
 namespace waymark::sim {
 namespace {

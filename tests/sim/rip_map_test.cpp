@@ -1,4 +1,4 @@
-#include "waymark/sim/rip_map.hpp"
+#include "workbench/sim/rip_map.hpp"
 
 #include <gtest/gtest.h>
 

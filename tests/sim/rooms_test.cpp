@@ -1,4 +1,4 @@
-#include "waymark/sim/rooms.hpp"
+#include "workbench/sim/rooms.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "waymark/sim/scene.hpp"
+#include "workbench/sim/scene.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

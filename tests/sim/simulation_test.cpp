@@ -1,4 +1,4 @@
-#include "waymark/sim/simulation.hpp"
+#include "workbench/sim/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,9 @@
 #include "waymark/core/gaussian.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 #include "waymark/models/odometry.hpp"
-#include "waymark/sim/landmark_sensor.hpp"
+
+#include "workbench/config/robot_keys.hpp"
+#include "workbench/sim/landmark_sensor.hpp"
 
 namespace waymark::sim {
 namespace {

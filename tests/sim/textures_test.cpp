@@ -1,4 +1,4 @@
-#include "waymark/sim/textures.hpp"
+#include "workbench/sim/textures.hpp"
 
 #include <cmath>
 

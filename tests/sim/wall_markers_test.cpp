@@ -1,9 +1,9 @@
-#include "waymark/sim/wall_markers.hpp"
+#include "workbench/sim/wall_markers.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "waymark/sim/rooms.hpp"
+#include "workbench/sim/rooms.hpp"
 
 namespace waymark::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/sim/wheels.hpp"
+#include "workbench/sim/wheels.hpp"
 
 #include <cmath>
 

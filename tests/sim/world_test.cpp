@@ -1,4 +1,4 @@
-#include "waymark/sim/world.hpp"
+#include "workbench/sim/world.hpp"
 
 #include <algorithm>
 #include <array>

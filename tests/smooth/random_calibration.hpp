@@ -1,7 +1,7 @@
 #pragma once
 
-#include "waymark/core/calibration.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/core/sensor_bias.hpp"
 
 namespace waymark::test {
 

@@ -1,4 +1,4 @@
-#include "waymark/study/axis.hpp"
+#include "workbench/study/axis.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,14 +1,14 @@
-#include "waymark/study/crew.hpp"
+#include "workbench/study/crew.hpp"
 
 #include <system_error>
 
 #include <gtest/gtest.h>
 
+#include "support/io_support.hpp"
 #include "support/no_more_threads.hpp"
-#include "waymark/study/sweep_summary.hpp"
 
-#include "io/io_support.hpp"
 #include "study_support.hpp"
+#include "workbench/study/sweep_summary.hpp"
 
 namespace waymark::study {
 namespace {

@@ -1,4 +1,4 @@
-#include "waymark/study/flatness.hpp"
+#include "workbench/study/flatness.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "waymark/study/maximise.hpp"
+#include "workbench/study/maximise.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "waymark/study/scored_run.hpp"
+#include "workbench/study/scored_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/study/sighting_score.hpp"
+#include "workbench/study/sighting_score.hpp"
 
 #include <cmath>
 

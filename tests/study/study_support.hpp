@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "waymark/study/sweep_plan.hpp"
+#include "workbench/study/sweep_plan.hpp"
 
 namespace waymark::study::test {
 

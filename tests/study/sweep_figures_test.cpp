@@ -1,4 +1,4 @@
-#include "waymark/study/sweep_figures.hpp"
+#include "workbench/study/sweep_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 
 #include "support/no_more_threads.hpp"
-#include "waymark/study/sweep_journal.hpp"
-#include "waymark/study/sweep_summary.hpp"
 
 #include "study_support.hpp"
+#include "workbench/study/sweep_journal.hpp"
+#include "workbench/study/sweep_summary.hpp"
 
 namespace waymark::study {
 namespace {

@@ -1,8 +1,9 @@
-#include "waymark/study/sweep_journal.hpp"
+#include "workbench/study/sweep_journal.hpp"
 
 #include <gmock/gmock.h>
 
-#include "io/io_support.hpp"
+#include "support/io_support.hpp"
+
 #include "study_support.hpp"
 
 namespace waymark::study {

@@ -1,4 +1,4 @@
-#include "waymark/study/sweep_plan.hpp"
+#include "workbench/study/sweep_plan.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "waymark/study/sweep_summary.hpp"
+#include "workbench/study/sweep_summary.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "waymark/study/tune_keys.hpp"
+#include "workbench/study/tune_keys.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,11 @@
-#include "waymark/study/tune_log.hpp"
+#include "workbench/study/tune_log.hpp"
 
 #include <gmock/gmock.h>
 
-#include "waymark/study/sighting_score.hpp"
+#include "support/io_support.hpp"
 
-#include "io/io_support.hpp"
 #include "study_support.hpp"
+#include "workbench/study/sighting_score.hpp"
 
 namespace waymark::study {
 namespace {

@@ -1,13 +1,12 @@
-#include "waymark/study/tune.hpp"
+#include "workbench/study/tune.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "waymark/study/sweep_summary.hpp"
-#include "waymark/study/tune_text.hpp"
-
 #include "study_support.hpp"
+#include "workbench/study/sweep_summary.hpp"
+#include "workbench/study/tune_text.hpp"
 
 namespace waymark::study {
 namespace {

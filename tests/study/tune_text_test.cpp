@@ -1,4 +1,4 @@
-#include "waymark/study/tune_text.hpp"
+#include "workbench/study/tune_text.hpp"
 
 #include <gmock/gmock.h>
 

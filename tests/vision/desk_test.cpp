@@ -12,10 +12,11 @@
 
 #include "support/data_dir.hpp"
 #include "support/spread_corners.hpp"
-#include "waymark/eval/median.hpp"
-#include "waymark/io/image_file.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/subpixel.hpp"
+
+#include "workbench/eval/median.hpp"
+#include "workbench/logs/image_file.hpp"
 
 namespace waymark::vision {
 namespace {

@@ -12,9 +12,10 @@
 
 #include "support/spread_corners.hpp"
 #include "waymark/core/random.hpp"
-#include "waymark/io/files.hpp"
 #include "waymark/vision/search.hpp"
 #include "waymark/vision/subpixel.hpp"
+
+#include "workbench/logs/files.hpp"
 
 namespace waymark::vision {
 namespace {

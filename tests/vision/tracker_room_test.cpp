@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "waymark/core/angle.hpp"
-#include "waymark/sim/film.hpp"
-#include "waymark/sim/rooms.hpp"
 #include "waymark/vision/tracker.hpp"
 
 #include "known_points.hpp"
+#include "workbench/sim/film.hpp"
+#include "workbench/sim/rooms.hpp"
 
 namespace waymark::vision {
 namespace {

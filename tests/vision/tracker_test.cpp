@@ -11,6 +11,7 @@
 
 #include "known_points.hpp"
 #include "squares.hpp"
+#include "workbench/config/camera_keys.hpp"
 
 namespace waymark::vision {
 namespace {

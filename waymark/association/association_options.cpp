@@ -14,22 +14,6 @@ constexpr double kUsuallyDetected = 0.9;
 
 }  // namespace
 
-void describe(Schema& schema, AssociationOptions& o) {
-  schema.real("association.false_alarm_probability", o.false_alarm_probability, {1e-6, 0.5},
-              "chance per scan that something else is taken for a landmark");
-  schema.real("association.clutter_per_scan", o.clutter_per_scan, {1e-6, 1e4},
-              "sightings of nothing per scan");
-  schema.real("association.landmarks_per_m2", o.landmarks_per_m2, {0.0, 1e3},
-              "density of landmarks that are not known yet");
-  schema.real("association.confirmed_log_odds", o.confirmed_log_odds, {0.0, 1e3},
-              "log-odds of existence from which a landmark counts in the map");
-  schema.real("association.most_log_odds", o.most_log_odds, {0.0, 1e3},
-              "largest log-odds of existence: how many misses in a row delete a landmark");
-  schema.integer("association.most_pairings", o.most_pairings, {1, 1000000},
-                 "pairs of sighting and landmark that associate=jcbb tries per scan before it takes the best "
-                 "hypothesis so far");
-}
-
 AssociationModel::AssociationModel(const AssociationOptions& options, const LandmarkSensor& sensor)
     : options_(options),
       detected_(sensor.detection_probability > 0.0 ? sensor.detection_probability : kUsuallyDetected),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "waymark/core/config.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
@@ -16,8 +15,6 @@ struct AssociationOptions {
   double most_log_odds = 12.0;            ///< where certainty ends
   int most_pairings = 2000;               ///< tried per scan where pairs are decided jointly
 };
-
-void describe(Schema& schema, AssociationOptions& options);
 
 /// A landmark that was never confirmed is given up after this way without a sighting.
 inline constexpr double kTentativeWay_m = 5.0;

@@ -2,15 +2,11 @@
 
 #include <array>
 
-#include "waymark/core/config.hpp"
-
 namespace waymark {
 
 struct GateOptions {
   double probability = 0.999999;  ///< part of the true sightings that may pass
 };
-
-void describe(Schema& schema, GateOptions& options);
 
 /// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a
 /// reader misreads now and then.

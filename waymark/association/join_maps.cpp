@@ -5,11 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "waymark/core/chi2.hpp"
 #include "waymark/core/cholesky.hpp"
 #include "waymark/core/solve_symmetric.hpp"
+#include "waymark/core/text.hpp"
 
 namespace waymark {
 namespace {
@@ -213,17 +212,15 @@ Result<JoinedMap> join_maps(const MapState& first, const MapState& second, PoseO
     return Error{"maps can be joined where their landmarks are of dimension 2"};
   const auto common = common_landmarks(first, second);
   if (common.size() < 2)
-    return Error{fmt::format("the maps have {} landmarks in common by identity; two are needed to join them",
-                             common.size())};
+    return Error{concat("the maps have ", common.size(),
+                        " landmarks in common by identity; two are needed to join them")};
   const Fit found = fit(first, second, common);
   const int dof = 2 * static_cast<int>(common.size()) - 3;
   const double limit = chi2_quantile(kConsistent, dof);
   if (!(found.d2 <= limit))
-    return Error{
-        fmt::format("the maps contradict each other: chi-square {:.1f} with {} degrees of freedom for {} "
-                    "common landmarks, "
-                    "{:.1f} allowed; worst is landmark {}",
-                    found.d2, dof, common.size(), limit, to_string(worst(first, found.apart, common)))};
+    return Error{concat("the maps contradict each other: chi-square ", decimals(found.d2, 1), " with ", dof,
+                        " degrees of freedom for ", common.size(), " common landmarks, ", decimals(limit, 1),
+                        " allowed; worst is landmark ", to_string(worst(first, found.apart, common)))};
   return JoinedMap{pick(first, second, common, correct(first, found, common), pose),
                    static_cast<int>(common.size()), found.T, found.d2, dof};
 }

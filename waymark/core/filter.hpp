@@ -4,11 +4,11 @@
 #include <optional>
 #include <span>
 
-#include "waymark/core/calibration.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/core/result.hpp"
+#include "waymark/core/sensor_bias.hpp"
 
 namespace waymark {
 

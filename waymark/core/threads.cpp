@@ -3,7 +3,7 @@
 #include <new>
 #include <system_error>
 
-#include <fmt/format.h>
+#include "waymark/core/text.hpp"
 
 namespace waymark {
 namespace {
@@ -31,7 +31,7 @@ std::vector<std::thread> start_threads(int count, const std::function<void()>& w
     stop();
     for (auto& thread : threads) thread.join();
     throw std::system_error(
-        failed, count == 1 ? "could not start a thread" : fmt::format("could not start {} threads", count));
+        failed, count == 1 ? "could not start a thread" : concat("could not start ", count, " threads"));
   }
   return threads;
 }

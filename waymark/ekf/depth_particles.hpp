@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "waymark/core/config.hpp"
 #include "waymark/ekf/depth_prior.hpp"
 
 namespace waymark::ekf {

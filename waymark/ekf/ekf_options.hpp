@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/eviction.hpp"
 #include "waymark/ekf/odometry_state_options.hpp"
@@ -38,7 +37,5 @@ struct EkfOptions {
   int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
   int loaded = 0;  ///< landmarks that load() will bring: they are the first region of a compressed map
 };
-
-void describe(Schema& schema, EkfOptions& options);
 
 }  // namespace waymark

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/calibration.hpp"
 #include "waymark/core/observation.hpp"
+#include "waymark/core/sensor_bias.hpp"
 #include "waymark/ekf/compressed_state.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 

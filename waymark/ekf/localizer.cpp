@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "waymark/core/gaussian.hpp"
+#include "waymark/core/text.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark {
@@ -174,17 +173,16 @@ bool Localizer::is_elsewhere(const PoseCandidates& found) const {
 
 std::string Localizer::reason(const PoseCandidates& found) const {
   const int candidates = seen_of_map();
-  const std::string seen = fmt::format("of {} landmarks seen in {} sightings and {:.0f} s of driving",
-                                       memory_.size(), sightings_, driven_s_);
+  const std::string seen = concat("of ", memory_.size(), " landmarks seen in ", sightings_, " sightings and ",
+                                  decimals(driven_s_, 0), " s of driving");
   if (candidates < 2)
-    return fmt::format("map: the robot is not in it: {} the map has {}; it is of another place", seen,
-                       candidates);
+    return concat("map: the robot is not in it: ", seen, " the map has ", candidates,
+                  "; it is of another place");
   if (found.best.agreeing >= kLeastUnnamed && found.best.agreeing < found.rival + kLeastAhead)
-    return fmt::format("map: the robot may be in several places of it: {} {} agree on one, {} on another",
-                       seen, found.best.agreeing, found.rival);
-  return fmt::format(
-      "map: the robot is not in it: {} no more than {} stand as in the map; it is of another place", seen,
-      found.best.agreeing);
+    return concat("map: the robot may be in several places of it: ", seen, " ", found.best.agreeing,
+                  " agree on one, ", found.rival, " on another");
+  return concat("map: the robot is not in it: ", seen, " no more than ", found.best.agreeing,
+                " stand as in the map; it is of another place");
 }
 
 const Correction& Localizer::settle(const PoseCandidate& found) {

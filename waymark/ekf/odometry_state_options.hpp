@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/models/odometry_errors.hpp"
 
 namespace waymark {
@@ -14,7 +13,5 @@ struct OdometryStateOptions {
 
   [[nodiscard]] OdometryErrors sigmas() const;
 };
-
-void describe(Schema& schema, OdometryStateOptions& options);
 
 }  // namespace waymark

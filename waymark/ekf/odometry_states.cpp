@@ -8,19 +8,6 @@ OdometryErrors OdometryStateOptions::sigmas() const {
   return {speed_scale_sigma, turn_scale_sigma, to_radians(turn_bias_sigma_degps)};
 }
 
-void describe(Schema& schema, OdometryStateOptions& o) {
-  schema.boolean(
-      "ekf.calibrate_odometry", o.estimate,
-      "estimate what is always wrong with the odometry: scales of speed and turning, and a turning "
-      "rate that is missing; the result is in calibration.yaml");
-  schema.real("ekf.speed_scale_sigma", o.speed_scale_sigma, {0.0, 1.0},
-              "standard deviation of the true distance per measured distance then; 0: it is 1");
-  schema.real("ekf.turn_scale_sigma", o.turn_scale_sigma, {0.0, 1.0},
-              "the same of the true turn per measured turn");
-  schema.real("ekf.turn_bias_sigma_degps", o.turn_bias_sigma_degps, {0.0, 100.0},
-              "the same of what the odometry turns too little while the robot moves, degrees per second");
-}
-
 namespace ekf {
 
 void OdometryStates::start(CompressedState& state) const {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "waymark/core/calibration.hpp"
-#include "waymark/core/config.hpp"
 #include "waymark/core/motion.hpp"
+#include "waymark/core/sensor_bias.hpp"
 #include "waymark/ekf/compressed_state.hpp"
 #include "waymark/ekf/odometry_state_options.hpp"
 #include "waymark/models/odometry_errors.hpp"

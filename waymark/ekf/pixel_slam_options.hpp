@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/ekf/depth_prior.hpp"
 
 namespace waymark {
@@ -30,7 +29,5 @@ struct PixelSlamOptions {
   int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
   double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
 };
-
-void describe(Schema& schema, PixelSlamOptions& options);
 
 }  // namespace waymark

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
-
 namespace waymark {
 
 /// What a particle knows when it draws its next pose.
@@ -29,7 +27,5 @@ struct FastSlamOptions {
   int kld_least = 50;            ///< particles to keep then
   int capacity = 1000;           ///< most landmarks in the map
 };
-
-void describe(Schema& schema, FastSlamOptions& options);
 
 }  // namespace waymark

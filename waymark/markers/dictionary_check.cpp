@@ -4,8 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "waymark/core/text.hpp"
 #include "waymark/markers/black_border.hpp"
 
 namespace waymark::markers {
@@ -85,14 +84,13 @@ std::optional<std::string> DictionaryCheck::verdict() const {
     if (finds && (!best || finds->markers > best->markers)) best = finds;
   }
   const std::string found =
-      fmt::format("markers.dictionary: {} found {} markers of {} identities in {} pictures", dictionary_.name,
-                  sightings_, all_ids_.size(), pictures_);
+      concat("markers.dictionary: ", dictionary_.name, " found ", sightings_, " markers of ", all_ids_.size(),
+             " identities in ", pictures_, " pictures");
   if (best && best->markers >= kMoreMin && best->markers > kMoreByFactor * own)
-    return fmt::format("{}; in {} of them {} finds {} where it finds {}: it is probably the right one", found,
-                       pictures.size(), smallest_with(best->dictionary, best->largest_id).name, best->markers,
-                       own);
-  if (sightings_ == 0)
-    return fmt::format("{}, and no other dictionary that this build knows does better", found);
+    return concat(found, "; in ", pictures.size(), " of them ",
+                  smallest_with(best->dictionary, best->largest_id).name, " finds ", best->markers,
+                  " where it finds ", own, ": it is probably the right one");
+  if (sightings_ == 0) return found + ", and no other dictionary that this build knows does better";
   return std::nullopt;
 }
 

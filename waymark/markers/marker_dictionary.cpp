@@ -5,10 +5,8 @@
 #include <cctype>
 #include <string>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "waymark/core/config.hpp"
+#include "waymark/core/names.hpp"
+#include "waymark/core/text.hpp"
 
 namespace waymark::markers {
 namespace {
@@ -64,9 +62,9 @@ Result<MarkerDictionary> find_marker_dictionary(std::string_view name) {
   const auto found = std::ranges::find(kDictionaries, plain(name), &MarkerDictionary::name);
   if (found != kDictionaries.end()) return *found;
   const std::string near = nearest_name(name, names());
-  return Error{fmt::format("markers.dictionary: unknown dictionary '{}'{}; there are {}", name,
-                           near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
-                           fmt::join(names(), ", "))};
+  return Error{concat("markers.dictionary: unknown dictionary '", name, "'",
+                      near.empty() ? "" : concat(", did you mean '", near, "'?"), "; there are ",
+                      comma_separated(names()))};
 }
 
 MarkerDictionary smallest_with(const MarkerDictionary& dictionary, int number) {

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "waymark/core/text.hpp"
 
 namespace waymark::markers {
 namespace {
@@ -29,38 +28,14 @@ Result<std::map<std::int32_t, double>> parse_sizes(std::string text, int count) 
     double size_m = 0.0;
     if (colon == std::string_view::npos || !parse(entry.substr(0, colon), id) || id < 0 || id >= count ||
         !parse(entry.substr(colon + 1), size_m) || !(size_m > 0.0) || !std::isfinite(size_m))
-      return Error{fmt::format(
-          "markers.sizes_m: '{}' is no size of a marker; expected identities below {} and sides in metres "
-          "like '3: 0.1, 7: 0.25'",
-          entry, count)};
+      return Error{concat("markers.sizes_m: '", entry, "' is no size of a marker; expected identities below ",
+                          count, " and sides in metres like '3: 0.1, 7: 0.25'")};
     sizes_m[id] = size_m;
   }
   return sizes_m;
 }
 
 }  // namespace
-
-void describe(Schema& schema, MarkerOptions& o) {
-  std::vector<std::string_view> names;
-  for (const MarkerDictionary& each : marker_dictionaries()) names.push_back(each.name);
-  schema.text("markers.dictionary", o.dictionary,
-              fmt::format("which markers there are: {}", fmt::join(names, ", ")));
-  schema.real("markers.size_m", o.size_m, {0.0, 100.0},
-              "side of the black square of a marker, m; 0: nobody said");
-  schema.text("markers.sizes_m", o.sizes_m, "sides of those that differ, m, as '3: 0.1, 7: 0.25'");
-  schema.real("markers.side_sigma_px", o.side_sigma_px, {1e-3, 100.0},
-              "standard deviation of one point on a side of a marker, pixels");
-  schema.real("markers.corner_sigma_px", o.corner_sigma_px, {1e-3, 100.0},
-              "noise of a corner of a marker that another program found, px, where a bag has no pictures");
-  schema.real("markers.mount_sigma_deg", o.mount_sigma_deg, {0.0, 10.0},
-              "standard deviation of how the camera shakes on its robot, degrees");
-  schema.real("markers.max_tilt_deg", o.max_tilt_deg, {0.0, 90.0},
-              "a marker that is turned further from the camera is not used, degrees");
-  schema.integer("markers.confirm", o.confirm, {1, 1000},
-                 "pictures close together that must show a new identity before it is believed");
-  schema.boolean("markers.own_thread", o.own_thread,
-                 "find markers on a thread of its own, ahead of the filter; the result is the same");
-}
 
 double MarkerSet::size_of(std::int32_t id) const {
   const auto own = sizes_m.find(id);

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/result.hpp"
 #include "waymark/markers/marker_dictionary.hpp"
 
@@ -22,9 +21,6 @@ struct MarkerOptions {
   int confirm = 1;                ///< pictures that must show an identity before it is believed
   bool own_thread = true;         ///< detection runs ahead of the filter
 };
-
-/// Keys markers.*.
-void describe(Schema& schema, MarkerOptions& options);
 
 /// Options that were understood.
 struct MarkerSet {

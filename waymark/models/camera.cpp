@@ -28,29 +28,6 @@ Eigen::Matrix3d CameraMount::R_robot_camera() const {
          about(roll_deg, Eigen::Vector3d::UnitX()) * ahead;
 }
 
-void describe(Schema& schema, CameraOptions& o) {
-  schema.integer("camera.width_px", o.width_px, {16, 16384}, "width of the image");
-  schema.integer("camera.height_px", o.height_px, {16, 16384}, "height of the image");
-  schema.real("camera.fu_px", o.fu_px, {1.0, 1e6}, "focal length along the rows, pixels");
-  schema.real("camera.fv_px", o.fv_px, {1.0, 1e6}, "focal length along the columns, pixels");
-  schema.real("camera.cu_px", o.cu_px, {-1e5, 1e5}, "column of the principal point; the first pixel is 0");
-  schema.real("camera.cv_px", o.cv_px, {-1e5, 1e5}, "row of the principal point");
-  schema.real("camera.k1", o.distortion.k1, {-100.0, 100.0}, "radial distortion, plumb bob as in ROS");
-  schema.real("camera.k2", o.distortion.k2, {-1e3, 1e3}, "radial distortion, fourth order");
-  schema.real("camera.p1", o.distortion.p1, {-10.0, 10.0}, "tangential distortion");
-  schema.real("camera.p2", o.distortion.p2, {-10.0, 10.0}, "tangential distortion");
-  schema.real("camera.k3", o.distortion.k3, {-1e4, 1e4}, "radial distortion, sixth order");
-  schema.real("camera.mount_x_m", o.mount.x_m, {-100.0, 100.0}, "camera ahead of the robot's origin, m");
-  schema.real("camera.mount_y_m", o.mount.y_m, {-100.0, 100.0}, "camera left of it, m");
-  schema.real("camera.mount_z_m", o.mount.z_m, {-100.0, 100.0}, "camera above the ground, m");
-  schema.real("camera.mount_roll_deg", o.mount.roll_deg, {-360.0, 360.0},
-              "turn of the camera about the robot's x axis, degrees");
-  schema.real("camera.mount_pitch_deg", o.mount.pitch_deg, {-360.0, 360.0},
-              "... about its y axis, positive looks down");
-  schema.real("camera.mount_yaw_deg", o.mount.yaw_deg, {-360.0, 360.0},
-              "... about its z axis, positive looks left");
-}
-
 Camera::Camera(const CameraOptions& options)
     : options_(options),
       R_camera_robot_(options.mount.R_robot_camera().transpose()),

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/pose2.hpp"
 
 namespace waymark {
@@ -46,8 +45,6 @@ struct CameraOptions {
   Distortion distortion;
   CameraMount mount;
 };
-
-void describe(Schema& schema, CameraOptions& options);
 
 /// Where the camera is in the world, and how it depends on the robot's pose (x, y, theta).
 struct CameraPose {

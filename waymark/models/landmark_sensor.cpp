@@ -20,43 +20,6 @@ std::optional<double> bearing_of(const Measurement& measurement) {
 
 }  // namespace
 
-void describe(Schema& schema, LandmarkSensor& s) {
-  schema.real("sensor.x_m", s.x_m, {-100.0, 100.0}, "landmark sensor ahead of the robot's origin, m");
-  schema.real("sensor.y_m", s.y_m, {-100.0, 100.0}, "landmark sensor left of the robot's origin, m");
-  schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0},
-              "direction of the landmark sensor, degrees left of ahead");
-  schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "reported range per metre of true range");
-  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
-              "by how much more than that is reported, m");
-  schema.boolean("sensor.range_is_depth", s.range_is_depth,
-                 "the range is measured along the sensor's axis, as a camera does that goes by size");
-  schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m");
-  schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0},
-              "further standard deviation per metre of range");
-  schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
-              "standard deviation of a bearing, degrees");
-  schema.real(
-      "sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
-      "standard deviation of what all ranges of a log have in common, per metre; both filters estimate it");
-  schema.real("sensor.shared_range_sigma_m", s.errors.shared_range_sigma_m, {0.0, 100.0},
-              "the same of an offset of all ranges");
-  schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
-              "the same of all bearings, degrees");
-  schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},
-              "standard deviation of what successive ranges to one landmark have in common, per metre");
-  schema.real("sensor.lasting_bearing_sigma_deg", s.errors.lasting_bearing_sigma_deg, {0.0, 90.0},
-              "the same of bearings, degrees");
-  schema.real("sensor.lasting_way_m", s.errors.lasting_way_m, {1e-3, 1e3},
-              "way after which 37 % of what successive sightings have in common are left, m");
-  schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
-  schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
-  schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
-  schema.real(
-      "sensor.detection_probability", s.detection_probability, {0.0, 0.999},
-      "chance that a landmark within these limits is reported; 0: that one is not reported says nothing");
-  schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0}, "how much later than the sighting its stamp is, s");
-}
-
 Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported) {
   const auto range = range_of(reported);
   if (!range) return reported;

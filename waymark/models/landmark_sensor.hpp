@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/core/pose2.hpp"
 #include "waymark/core/stamp.hpp"
@@ -50,8 +49,6 @@ struct LandmarkSensor {
 
   [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
 };
-
-void describe(Schema& schema, LandmarkSensor& sensor);
 
 /// What was reported, freed from the sensor's known errors: range = (reported - offset) / scale, and over
 /// cos(bearing) where it is a depth. A depth beside no bearing, or 90 degrees and more off the axis, is

@@ -24,47 +24,6 @@ ArcStep scaled(ArcStep step, const OdometryOptions& options) {
 
 }  // namespace
 
-void describe(Schema& schema, OdometryOptions& o) {
-  schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0},
-              "radius of the left wheel, m; 0: the log says");
-  schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0},
-              "radius of the right wheel, m; 0: the log says");
-  schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0},
-              "distance between the wheels, m; 0: the log says");
-  schema.real(
-      "car.wheel_base_m", o.car.wheel_base_m, {0.0, 100.0},
-      "of a steered car: from the rear axle, where its origin is, to the front one, m; 0: the log says");
-  schema.real("car.encoder_offset_m", o.car.encoder_offset_m, {-10.0, 10.0},
-              "how far left of the middle the rear wheel is whose speed is measured, m");
-  schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0},
-              "error variance of each wheel per metre it rolls");
-  schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0},
-              "forward slip variance per metre driven");
-  schema.real("motion.lateral_var_m2_per_m", o.noise.lateral_var_m2_per_m, {0.0, 1.0},
-              "sideways slip variance per metre driven");
-  schema.real("motion.turn_var_rad2_per_rad", o.noise.turn_var_rad2_per_rad, {0.0, 10.0},
-              "turning error variance per radian turned");
-  schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0},
-              "turning error variance per metre driven");
-  schema.real("motion.steer_var_rad2_m", o.noise.steer_var_rad2_m, {0.0, 1.0},
-              "variance of a steering angle's error times the way on which one error lasts");
-  schema.real("motion.speed_scale", o.speed_scale, {0.1, 10.0}, "true distance per measured distance");
-  schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
-  schema.real("motion.turn_bias_degps", o.turn_bias_degps, {-100.0, 100.0},
-              "what the odometry turns too little while the robot moves, degrees per second");
-  schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
-              "a robot slower than this that also turns little stands, m/s: what its odometry turns then is "
-              "its bias, and taken out of what follows; 0: never");
-  schema.real("motion.standing_below_radps", o.standing.below_radps, {0.0, 10.0},
-              "the most that counts as turning little there, rad/s");
-  schema.real("motion.outer_point_m", o.outer_point_m, {0.0, 10.0},
-              "how far out, on the outside of a turn, the point is whose speed is reported, m");
-  schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
-              "how much later than its stamp a motion happens, s: a robot takes time to follow a command");
-  schema.choice("motion.arc", o.arc, {"exact", "article"},
-                "chord of the exact arc, or k = 1 as in the 2012 article");
-}
-
 Result<void> check(const WheelGeometry& wheels) {
   const auto missing = [](const char* key) {
     return Error{std::string(key) + " is not known: give it in the log's log.yaml or with --set " + key +

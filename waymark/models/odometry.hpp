@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/event.hpp"
 #include "waymark/core/motion.hpp"
+#include "waymark/core/result.hpp"
 
 namespace waymark {
 
@@ -57,8 +57,6 @@ struct OdometryOptions {
   double response_s =
       0.0;  ///< how much later than its stamp a motion happens: the stamps of commands are early
 };
-
-void describe(Schema& schema, OdometryOptions& options);
 
 /// The wheels are known and possible.
 [[nodiscard]] Result<void> check(const WheelGeometry& wheels);

@@ -51,17 +51,13 @@ std::optional<Eigen::Matrix2d> used_covariance(const LandmarkSensor& sensor, con
 
 }  // namespace
 
-bool FrontEnds::fit(const ImageView& image) const {
-  return (corners != nullptr && corners->fits(image)) || (markers != nullptr && markers->fits(image));
-}
-
 Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-                   const LandmarkSensor& sensor, Observe observe, Sink sink, const FrontEnds& front_ends)
+                   const LandmarkSensor& sensor, Observe observe, Sink sink, FrontEnd* front_end)
     : filter_(filter),
       sensor_(sensor),
       observe_(observe),
       sink_(std::move(sink)),
-      front_ends_(front_ends),
+      front_end_(front_end),
       odometer_(odometry, options.max_hold_s),
       window_(duration_from_seconds(options.reorder_window_s)),
       delay_(duration_from_seconds(sensor.delay_s)),
@@ -109,15 +105,16 @@ Duration Pipeline::shift_of(const EventContent& content) const {
 
 bool Pipeline::is_observed(const EventContent& content) const {
   return std::holds_alternative<Observations>(content) ||
-         (front_ends_.any() && std::holds_alternative<Image>(content)) ||
-         (front_ends_.markers != nullptr && std::holds_alternative<MarkerOutlines>(content));
+         (front_end_ != nullptr && std::holds_alternative<Image>(content)) ||
+         (front_end_ != nullptr && front_end_->takes_outlines() &&
+          std::holds_alternative<MarkerOutlines>(content));
 }
 
-/// Markers are found while a picture waits for its turn.
+/// The front end may look into a picture while that waits for its turn.
 void Pipeline::announce(const Event& event) {
   const auto* image = std::get_if<Image>(&event.content);
-  if (image != nullptr && front_ends_.markers != nullptr && image->pixels && front_ends_.fit(*image->pixels))
-    front_ends_.markers->announce(image->pixels);
+  if (image != nullptr && front_end_ != nullptr && image->pixels && front_end_->fits(*image->pixels))
+    front_end_->announce(image->pixels);
 }
 
 void Pipeline::finish() {
@@ -165,7 +162,8 @@ void Pipeline::process_front_group() {
       collect(*observations);
     } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
       ++counts_.outlines;
-      collect_markers(front_ends_.markers->see(*outlines));
+      ++counts_.pictures;
+      collect_seen(std::get<std::span<const Observation>>(front_end_->see(*outlines)));
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
     } else {
@@ -183,30 +181,29 @@ void Pipeline::process_front_group() {
 
 /// Pixels that come as observations are a front end's work done elsewhere: they go before a picture.
 const Correction* Pipeline::correct() {
-  if (picture_ && front_ends_.markers != nullptr) see_markers();
-  if (!batch_.empty()) {
-    picture_.reset();
-    return &filter_.correct(batch_);
+  if (picture_ && front_end_->corrects_filter() && !batch_.empty()) picture_.reset();
+  const Correction* correction = picture_ ? see_picture() : nullptr;
+  return batch_.empty() ? correction : &filter_.correct(batch_);
+}
+
+/// Puts what is seen into the batch, or returns what the filter made of it.
+const Correction* Pipeline::see_picture() {
+  ++counts_.pictures;
+  const FrontEnd::Seen seen = front_end_->see(picture_);
+  if (const auto* correction = std::get_if<const Correction*>(&seen)) {
+    counts_.observations += std::ssize((*correction)->innovations);
+    return *correction;
   }
-  if (!picture_ || front_ends_.corners == nullptr) return nullptr;
-  ++counts_.pictures;
-  const Correction& correction = front_ends_.corners->see(*picture_);
-  counts_.observations += std::ssize(correction.innovations);
-  return &correction;
-}
-
-void Pipeline::see_markers() {
-  collect_markers(front_ends_.markers->see(picture_));
+  collect_seen(std::get<std::span<const Observation>>(seen));
   last_picture_ = std::exchange(picture_, nullptr);
+  return nullptr;
 }
 
-/// Of one picture.
-void Pipeline::collect_markers(std::span<const Observation> sightings) {
-  ++counts_.pictures;
-  for (const Observation& seen : sightings) {
+void Pipeline::collect_seen(std::span<const Observation> seen) {
+  for (const Observation& observation : seen) {
     ++counts_.observations;
-    if (is_usable(sensor_, seen.value))
-      batch_.push_back(seen);
+    if (is_usable(sensor_, observation.value))
+      batch_.push_back(observation);
     else
       ++counts_.unusable;
   }
@@ -242,11 +239,11 @@ void Pipeline::collect(const Observations& observations) {
 /// A camera that hangs gives one picture again and again, under new stamps: believing it would stop the
 /// robot.
 void Pipeline::take(const Image& image) {
-  if (!image.pixels || !front_ends_.fit(*image.pixels)) {
+  if (!image.pixels || !front_end_->fits(*image.pixels)) {
     ++counts_.misfits;
   } else if (picture_ || (last_picture_ && *last_picture_ == *image.pixels)) {
     ++counts_.repeats;
-    if (front_ends_.markers != nullptr) front_ends_.markers->drop(image.pixels);
+    front_end_->drop(image.pixels);
   } else {
     picture_ = image.pixels;
   }

@@ -10,23 +10,14 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/core/stopwatch.hpp"
 #include "waymark/models/landmark_sensor.hpp"
-#include "waymark/slam/camera_front_end.hpp"
-#include "waymark/slam/marker_front_end.hpp"
+#include "waymark/models/observe.hpp"
+#include "waymark/slam/front_end.hpp"
 #include "waymark/slam/odometer.hpp"
 #include "waymark/slam/pipeline_counts.hpp"
 #include "waymark/slam/pipeline_options.hpp"
 #include "waymark/slam/release_horizon.hpp"
 
 namespace waymark {
-
-/// What looks into pictures, if anything; neither: pictures are ignored. Both must outlive who uses them.
-struct FrontEnds {
-  CameraFrontEnd* corners = nullptr;  ///< for a filter over pixels
-  MarkerFrontEnd* markers = nullptr;  ///< for a filter over range and bearing
-
-  [[nodiscard]] bool any() const { return corners != nullptr || markers != nullptr; }
-  [[nodiscard]] bool fit(const ImageView& image) const;
-};
 
 /// What the pipeline reports after every group of events with one stamp.
 struct Step {
@@ -50,8 +41,10 @@ class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;
 
+  /// `front_end` looks into pictures; without one they are ignored. It and the filter must outlive the
+  /// pipeline.
   Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
-           const LandmarkSensor& sensor, Observe observe, Sink sink, const FrontEnds& front_ends = {});
+           const LandmarkSensor& sensor, Observe observe, Sink sink, FrontEnd* front_end = nullptr);
 
   /// Takes an event, and processes what is older than the newest by more than the reordering window.
   void push(Event event);
@@ -79,9 +72,9 @@ class Pipeline {
   void collect(const Observations& observations);
   void announce(const Event& event);
   void take(const Image& image);
-  void see_markers();
-  void collect_markers(std::span<const Observation> sightings);
+  void collect_seen(std::span<const Observation> seen);
   [[nodiscard]] const Correction* correct();
+  [[nodiscard]] const Correction* see_picture();
   [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;
   [[nodiscard]] const Event* next_yaw_rate() const;
@@ -91,7 +84,7 @@ class Pipeline {
   LandmarkSensor sensor_;
   Observe observe_;
   Sink sink_;
-  FrontEnds front_ends_;
+  FrontEnd* front_end_;  ///< null: nothing looks into pictures
   Odometer odometer_;
   Duration window_;
   Duration delay_;

@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/calibration.hpp"
 #include "waymark/core/pose2.hpp"
-#include "waymark/models/landmark_sensor.hpp"
-#include "waymark/slam/pipeline_options.hpp"
-#include "waymark/slam/smooth_options.hpp"
+#include "waymark/core/sensor_bias.hpp"
+#include "waymark/models/observe.hpp"
+#include "waymark/smooth/options.hpp"
 
 namespace waymark::smooth {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/kernels/instructions.hpp"
 
 namespace waymark::vision {
@@ -10,7 +9,5 @@ struct CornerOptions {
   int arc = 12;        ///< pixels of the circle of 16, 9 to 12
   kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
-
-void describe(Schema& schema, CornerOptions& options);
 
 }  // namespace waymark::vision

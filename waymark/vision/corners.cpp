@@ -27,13 +27,6 @@ bool is_empty(const PixelRect& r) { return r.width_px <= 0 || r.height_px <= 0; 
 
 }  // namespace
 
-void describe(Schema& schema, CornerOptions& options) {
-  schema.integer("corners.threshold", options.threshold, {1.0, 254.0},
-                 "grey levels by which the pixels around a corner differ from it");
-  schema.integer("corners.arc", options.arc, {kernels::kMinFastArc, kernels::kMaxFastArc},
-                 "neighbouring pixels of the circle of 16 that must differ");
-}
-
 const std::vector<Corner>& CornerDetector::detect(const ImageView& image) {
   return detect(image, {0, 0, image.width_px, image.height_px});
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/kernels/fast_corners.hpp"
 #include "waymark/vision/corner_options.hpp"

@@ -14,13 +14,6 @@ Duration duration_from_nanoseconds(double ns) { return Duration(std::llround(ns)
 
 }  // namespace
 
-void describe(Schema& schema, FrameBudgetOptions& options) {
-  schema.real("tracker.frame_budget_ms", options.per_frame_ms, {0.001, 10000.0},
-              "time for a picture; what is left out when it is used up is looked for in later ones");
-  schema.choice("tracker.budget", options.kind, {"work", "clock"},
-                "how it is counted: work (fixed costs, the same in every replay) or clock (CPU time)");
-}
-
 WorkCosts work_costs(kernels::Instructions instructions) {
   if (instructions == kernels::Instructions::kSimd) return {};
   return {.window_ns = 450.0, .peak_ns = 9.0 * 450.0, .pixel_ns = 40.0};

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/stamp.hpp"
 #include "waymark/kernels/instructions.hpp"
 
@@ -17,8 +16,6 @@ struct FrameBudgetOptions {
   double per_frame_ms = 33.0;
   BudgetKind kind = BudgetKind::kWork;
 };
-
-void describe(Schema& schema, FrameBudgetOptions& options);
 
 /// What parts of the work take on a slow core, ns: some four times what they take on a desktop's with the
 /// oldest vector instructions.

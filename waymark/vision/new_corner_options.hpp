@@ -1,7 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
-
 namespace waymark::vision {
 
 /// Where and when new landmarks are wanted.
@@ -13,7 +11,5 @@ struct NewCornerOptions {
   int rows = 3;
   double distance_px = 20.0;  ///< from any other feature
 };
-
-void describe(Schema& schema, NewCornerOptions& options);
 
 }  // namespace waymark::vision

@@ -8,19 +8,6 @@
 
 namespace waymark::vision {
 
-void describe(Schema& schema, NewCornerOptions& o) {
-  schema.integer("tracker.wanted", o.wanted, {1.0, 1000.0},
-                 "landmarks in view; with fewer, new corners are looked for where there are none");
-  schema.integer("tracker.most_candidates", o.most_candidates, {1.0, 100.0},
-                 "corners whose distance is being found out at a time");
-  schema.integer("tracker.most_new", o.most_new, {1.0, 100.0}, "new corners in one picture");
-  schema.integer("tracker.cells_u", o.columns, {1.0, 64.0},
-                 "cells side by side into which a picture is cut to tell where corners are wanted");
-  schema.integer("tracker.cells_v", o.rows, {1.0, 64.0}, "and one below the other");
-  schema.real("tracker.distance_px", o.distance_px, {1.0, 1000.0},
-              "least distance of a new corner from other landmarks in the picture");
-}
-
 double shi_tomasi_score(const ImageView& image, int u, int v, int patch_px) {
   std::int64_t uu = 0, uv = 0, vv = 0;  // of differences over two pixels: twice the gradient
   for (int y = v - before_place(patch_px); y < v + from_place(patch_px); ++y) {

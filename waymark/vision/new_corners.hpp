@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/vision/corners.hpp"
 #include "waymark/vision/frame_budget.hpp"

@@ -28,18 +28,6 @@ bool is_positive_definite(const Eigen::Matrix2d& S) {
 
 }  // namespace
 
-void describe(Schema& schema, SearchOptions& o) {
-  schema.real("search.probability", o.probability, {0.5, 0.99999},
-              "part of the true places that lie inside a search ellipse");
-  schema.integer("search.max_windows", o.max_windows, {1.0, 1e6},
-                 "places of one search; larger ellipses are searched at corners only");
-  schema.choice("search.match", o.match, {"map", "article"},
-                "what a match makes small: map (posterior) or article (weighted ZMSSD)");
-  schema.real("search.grey_sigma", o.grey_sigma, {0.1, 100.0}, "noise of a pixel, grey levels");
-  schema.real("search.accept_ratio", o.accept_ratio, {0.1, 1e6},
-              "a match may differ from its patch so many times as much as noise and half a pixel explain");
-}
-
 void find_ellipse_rows(const ImageView& image, const Eigen::Vector2d& centre, const Eigen::Matrix2d& S,
                        double gate, int patch_size, EllipseRows& ellipse) {
   const int before = before_place(patch_size), from = from_place(patch_size);

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include "waymark/core/config.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"

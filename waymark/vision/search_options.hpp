@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/kernels/instructions.hpp"
 #include "waymark/vision/corner_options.hpp"
 
@@ -23,7 +22,5 @@ struct SearchOptions {
   CornerOptions corners{.threshold = 15, .arc = 9};  ///< of the search at corners
   kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
-
-void describe(Schema& schema, SearchOptions& options);
 
 }  // namespace waymark::vision

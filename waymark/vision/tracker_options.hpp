@@ -1,6 +1,5 @@
 #pragma once
 
-#include "waymark/core/config.hpp"
 #include "waymark/kernels/instructions.hpp"
 #include "waymark/vision/corner_options.hpp"
 #include "waymark/vision/finder_options.hpp"
@@ -17,8 +16,5 @@ struct TrackerOptions {
   FrameBudgetOptions budget;
   kernels::Instructions instructions = kernels::Instructions::kSimd;
 };
-
-/// Adds `tracker.` and `corners.` keys.
-void describe(Schema& schema, TrackerOptions& options);
 
 }  // namespace waymark::vision

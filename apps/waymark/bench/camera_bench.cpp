@@ -7,16 +7,16 @@
 #include <string>
 #include <utility>
 
-#include "waymark/core/event_list.hpp"
 #include "waymark/core/function_blocks.hpp"
-#include "waymark/eval/median.hpp"
 #include "waymark/kernels/zmssd.hpp"
-#include "waymark/report/article_times.hpp"
-#include "waymark/slam/recording.hpp"
-#include "waymark/slam/recording_figures.hpp"
 #include "waymark/vision/corners.hpp"
 
 #include "article_config.hpp"
+#include "workbench/eval/median.hpp"
+#include "workbench/logs/event_list.hpp"
+#include "workbench/report/article_times.hpp"
+#include "workbench/run/recording.hpp"
+#include "workbench/run/recording_figures.hpp"
 
 namespace waymark::app {
 namespace {

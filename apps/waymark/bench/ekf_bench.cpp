@@ -10,11 +10,11 @@
 
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
-#include "waymark/eval/median.hpp"
 
 #include "plain_ekf.hpp"
 #include "synthetic_run.hpp"
 #include "wall_time.hpp"
+#include "workbench/eval/median.hpp"
 
 namespace waymark::app {
 namespace {

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "waymark/core/function_blocks.hpp"
-#include "waymark/eval/median.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 
 #include "plain_fastslam.hpp"
 #include "synthetic_run.hpp"
 #include "wall_time.hpp"
+#include "workbench/eval/median.hpp"
 
 namespace waymark::app {
 namespace {

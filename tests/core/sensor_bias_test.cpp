@@ -1,0 +1,21 @@
+#include "waymark/core/sensor_bias.hpp"
+
+#include <gtest/gtest.h>
+
+namespace waymark {
+namespace {
+
+TEST(CalibrationEstimate, TellsWhatWasLearntFromWhatWasAssumed) {
+  CalibrationEstimate estimate;
+  estimate.prior_sigmas[kSpeedScale] = estimate.prior_sigmas[kTurnScale] = 0.1;
+  estimate.sigmas[kSpeedScale] = 0.02;
+  estimate.sigmas[kTurnScale] = 0.099;
+  EXPECT_TRUE(estimate.is_estimated(kSpeedScale));
+  EXPECT_FALSE(estimate.is_untold(kSpeedScale));
+  EXPECT_TRUE(estimate.is_untold(kTurnScale));
+  EXPECT_FALSE(estimate.is_estimated(kRangeScale));
+  EXPECT_FALSE(estimate.is_untold(kRangeScale));
+}
+
+}  // namespace
+}  // namespace waymark

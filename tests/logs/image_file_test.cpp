@@ -1,0 +1,174 @@
+#include "workbench/logs/image_file.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <jpeglib.h>
+
+#include "support/data_dir.hpp"
+#include "support/io_support.hpp"
+
+namespace waymark {
+namespace {
+
+using test::TempFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+
+GreyImage slopes(int width_px, int height_px) {
+  GreyImage image(width_px, height_px);
+  for (int v = 0; v < height_px; ++v)
+    for (int u = 0; u < width_px; ++u) image(u, v) = static_cast<std::uint8_t>((3 * u + 5 * v) % 256);
+  return image;
+}
+
+std::string jpeg_bytes(const GreyImage& image) {
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* memory = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &memory, &size);
+  jpeg.image_width = static_cast<JDIMENSION>(image.width_px());
+  jpeg.image_height = static_cast<JDIMENSION>(image.height_px());
+  jpeg.input_components = 1;
+  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  GreyImage copy = image;
+  for (int v = 0; v < image.height_px(); ++v) {
+    JSAMPROW row = &copy(0, v);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  std::string bytes(reinterpret_cast<const char*>(memory), size);
+  std::free(memory);
+  return bytes;
+}
+
+std::string error_of(const Result<GreyImage>& image) {
+  return image.ok() ? "no error" : image.error().message;
+}
+
+TEST(ImageFile, PngGivesBackThePixels) {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.png";
+  const GreyImage image = slopes(37, 21);
+  ASSERT_TRUE(write_png(file, image).ok());
+  const auto read = read_image(file, ImageSize{37, 21});
+  ASSERT_TRUE(read.ok()) << error_of(read);
+  EXPECT_EQ(*read, image);
+}
+
+TEST(ImageFile, PartOfAnImageCanBeWritten) {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.png";
+  ASSERT_TRUE(write_png(file, slopes(37, 21).view().part(3, 4, 8, 9)).ok());
+  const auto read = read_image(file);
+  ASSERT_TRUE(read.ok()) << error_of(read);
+  EXPECT_EQ((*read)(0, 0), 3 * 3 + 5 * 4);
+  EXPECT_EQ(read->height_px(), 9);
+}
+
+TEST(ImageFile, JpegGivesBackAlmostThePixels) {
+  GreyImage image(40, 24);
+  for (int v = 0; v < 24; ++v)
+    for (int u = 0; u < 40; ++u) image(u, v) = static_cast<std::uint8_t>(3 * u + 4 * v);
+  const auto read = decode_image(jpeg_bytes(image), "a.jpg");
+  ASSERT_TRUE(read.ok()) << error_of(read);
+  for (int v = 0; v < 24; ++v)
+    for (int u = 0; u < 40; ++u) EXPECT_NEAR((*read)(u, v), image(u, v), 4);
+}
+
+TEST(ImageFile, ColourBecomesTheWeightedMean) {
+  // One row: pure red, green and blue.
+  static constexpr unsigned char kPng[] = {
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,
+      0x00, 0x00, 0x00, 0x03, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x94, 0x82, 0x83,
+      0xe3, 0x00, 0x00, 0x00, 0x15, 0x49, 0x44, 0x41, 0x54, 0x78, 0x01, 0x01, 0x0a, 0x00, 0xf5, 0xff,
+      0x00, 0xff, 0x00, 0x00, 0x00, 0xff, 0x00, 0x00, 0x00, 0xff, 0x0e, 0xfb, 0x02, 0xfe, 0xf2, 0x0f,
+      0x8d, 0xee, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  const auto image = decode_image({reinterpret_cast<const char*>(kPng), sizeof kPng}, "rgb", ImageSize{3, 1});
+  ASSERT_TRUE(image.ok()) << error_of(image);
+  EXPECT_EQ((*image)(0, 0), 76);   // 0.299 * 255
+  EXPECT_EQ((*image)(1, 0), 150);  // 0.587 * 255
+  EXPECT_EQ((*image)(2, 0), 29);   // 0.114 * 255
+}
+
+TEST(ImageFile, PgmGivesBackThePixels) {
+  const std::string pixels("\0\n#\xff 1", 6);
+  const auto image = decode_image("P5 # grey\n3\n2\t255\n" + pixels, "a.pgm", ImageSize{3, 2});
+  ASSERT_TRUE(image.ok()) << error_of(image);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(image->data()[i], static_cast<std::uint8_t>(pixels[std::size_t(i)]));
+}
+
+TEST(ImageFile, DamagedPgmIsAnError) {
+  EXPECT_THAT(error_of(decode_image("P5", "a")), HasSubstr("a: damaged PGM file: no width"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")), HasSubstr("no width"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("grey up to 65535"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("breaks off"));
+  EXPECT_THAT(error_of(decode_image("P5 -3 2 255\n", "a")), HasSubstr("each side must have"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n123456", "a", ImageSize{2, 3})),
+              HasSubstr("expected 2 x 3"));
+}
+
+TEST(ImageFile, WhatIsNoImageIsAnErrorThatSaysSo) {
+  const TempFolder folder;
+  EXPECT_THAT(error_of(read_image(folder.write("a.png", "hello"))),
+              AllOf(HasSubstr("a.png"), HasSubstr("expected a PNG, JPEG or PGM")));
+  EXPECT_THAT(error_of(read_image(folder.write("b.png", ""))), HasSubstr("is empty"));
+  EXPECT_THAT(error_of(read_image(folder.path() / "none.png")), HasSubstr("No such file"));
+}
+
+TEST(ImageFile, AnotherSizeThanExpectedIsAnError) {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.png";
+  ASSERT_TRUE(write_png(file, slopes(30, 20)).ok());
+  EXPECT_THAT(error_of(read_image(file, ImageSize{320, 240})),
+              HasSubstr("has 30 x 20 pixels, expected 320 x 240"));
+  EXPECT_THAT(error_of(decode_image(jpeg_bytes(slopes(8, 9)), "b.jpg", ImageSize{9, 8})),
+              HasSubstr("has 8 x 9 pixels, expected 9 x 8"));
+}
+
+TEST(ImageFile, CutOffAnywhereIsAnErrorOfOneLine) {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.png";
+  ASSERT_TRUE(write_png(file, slopes(64, 48)).ok());
+  for (const std::string& bytes : {*read_file(file), jpeg_bytes(slopes(64, 48))}) {
+    for (std::size_t size = 0; size + 2 < bytes.size(); size += 1 + size / 16) {
+      const auto image = decode_image(std::string_view(bytes).substr(0, size), "cut");
+      ASSERT_FALSE(image.ok()) << size << " of " << bytes.size();
+      EXPECT_THAT(image.error().message, HasSubstr("cut: "));
+      EXPECT_EQ(image.error().message.find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(ImageFile, DamagedBytesAreNeverACrash) {
+  const TempFolder folder;
+  const auto file = folder.path() / "a.png";
+  ASSERT_TRUE(write_png(file, slopes(64, 48)).ok());
+  for (const std::string& bytes : {*read_file(file), jpeg_bytes(slopes(64, 48))}) {
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ 0x55);
+      const auto image = decode_image(damaged, "damaged");
+      EXPECT_TRUE(image.ok() || !image.error().message.empty());
+    }
+  }
+}
+
+TEST(ImageFile, ReadsPhotographs) {
+  WAYMARK_REQUIRE_DATA("gray-images");
+  const auto graf = read_image(test::data_path("gray-images/graf1.png"), ImageSize{800, 640});
+  ASSERT_TRUE(graf.ok()) << error_of(graf);
+  const auto leuven = read_image(test::data_path("gray-images/leuvenA.jpg"), ImageSize{751, 563});
+  ASSERT_TRUE(leuven.ok()) << error_of(leuven);
+}
+
+}  // namespace
+}  // namespace waymark

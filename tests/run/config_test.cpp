@@ -1,0 +1,108 @@
+#include "workbench/run/config.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace waymark {
+namespace {
+
+TEST(Config, TheConfigInForceReadsBackAsItself) {
+  Config config;
+  Schema schema = describe(config);
+  ASSERT_TRUE(schema.set_assignment("sensor.bearing_sigma_deg=0.1234567890123", "test").ok());
+  ASSERT_TRUE(schema.set_assignment("ekf.consistency=fej", "test").ok());
+  const std::string yaml = schema.to_yaml();
+  Config again;
+  Schema schema_again = describe(again);
+  ASSERT_TRUE(schema_again.load_text(yaml, "yaml").ok());
+  EXPECT_EQ(again.sensor.bearing_sigma_deg, 0.1234567890123);
+  EXPECT_EQ(again.ekf.consistency, ekf::Consistency::kFej);
+  const auto values = [](const Schema& s) {
+    std::string all;
+    for (const auto& key : s.keys()) all += key + "=" + s.value(key) + "\n";
+    return all;
+  };
+  EXPECT_EQ(values(schema_again), values(schema));
+}
+
+TEST(Config, EveryKeyHasAUniqueName) {
+  Config config;
+  auto keys = describe(config).keys();
+  std::ranges::sort(keys);
+  EXPECT_EQ(std::ranges::adjacent_find(keys), keys.end());
+}
+
+TEST(Config, LaterSettingsWin) {
+  const auto file = std::filesystem::temp_directory_path() / "waymark_config_test.yaml";
+  std::ofstream(file) << "seed: 5\nthreads: 2\n";
+  const auto later = std::filesystem::temp_directory_path() / "waymark_config_test_later.yaml";
+  std::ofstream(later) << "threads: 3\n";
+  const auto config = resolve_config({{file, later}, {"seed=6"}});
+  const auto alone = resolve_config({{file}, {}});
+  std::filesystem::remove(file);
+  std::filesystem::remove(later);
+  ASSERT_TRUE(config.ok() && alone.ok());
+  EXPECT_EQ(config->seed, 6U);
+  EXPECT_EQ(config->threads, 3);
+  EXPECT_EQ(alone->threads, 2);
+}
+
+TEST(Config, AMistypedKeyNamesTheNearest) {
+  const auto config = resolve_config({{}, {"ekf.consistancy=fej"}});
+  ASSERT_FALSE(config.ok());
+  EXPECT_NE(config.error().message.find("ekf.consistency"), std::string::npos) << config.error().message;
+  EXPECT_EQ(config.error().kind, Error::Kind::kBadInput);
+}
+
+TEST(Config, TheUserOutranksTheLogAndTheLogTheDefaults) {
+  const auto plain = open_input("sim:study", {});
+  ASSERT_TRUE(plain.ok());
+  EXPECT_EQ(plain->config.sensor.bearing_sigma_deg, 1.5);  // the study's sensor
+  const auto changed = open_input("sim:study", {{}, {"sensor.bearing_sigma_deg=3"}});
+  ASSERT_TRUE(changed.ok());
+  EXPECT_EQ(changed->config.sensor.bearing_sigma_deg, 3.0);
+}
+
+TEST(Config, ALogWithoutIdentitiesAsksForAssociationUnlessTheUserSaysOtherwise) {
+  const auto associate = [](const std::vector<std::string>& assignments) {
+    const auto opened = open_input("sim:forest", {{}, assignments});
+    return opened.ok() ? std::optional(opened->config.associate) : std::nullopt;
+  };
+  EXPECT_EQ(associate({}), Association::kJcbb);
+  EXPECT_EQ(associate({"filter=fastslam"}), Association::kMl);
+  EXPECT_EQ(associate({"associate=nearest"}), Association::kNearest);
+  EXPECT_EQ(associate({"sim.identities=true"}), Association::kKnown);
+  EXPECT_EQ(associate({"associate=known"}), Association::kKnown);
+}
+
+TEST(Config, ALogOfImagesIsObservedByPixelsUnlessTheUserSaysOtherwise) {
+  const auto observe = [](const std::string& input, const std::vector<std::string>& assignments) {
+    const auto opened = open_input(input, {{}, assignments});
+    return opened.ok() ? std::optional(opened->config.observe) : std::nullopt;
+  };
+  EXPECT_EQ(observe("sim:room", {}), Observe::kPixel);
+  EXPECT_EQ(observe("sim:room", {"observe=bearing"}), Observe::kBearing);
+  EXPECT_EQ(observe("sim:square", {}), Observe::kRangeBearing);
+}
+
+TEST(Config, AnUnknownScenarioNamesTheNearest) {
+  const auto opened = open_input("sim:sqare", {});
+  ASSERT_FALSE(opened.ok());
+  EXPECT_NE(opened.error().message.find("square"), std::string::npos) << opened.error().message;
+}
+
+TEST(Config, EveryShippedConfigIsValid) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WAYMARK_CONFIG_DIR)) {
+    const auto config = resolve_config({{entry.path()}, {}});
+    EXPECT_TRUE(config.ok()) << config.error().message;
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+}
+
+}  // namespace
+}  // namespace waymark

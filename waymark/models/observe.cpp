@@ -1,0 +1,9 @@
+#include "waymark/models/observe.hpp"
+
+namespace waymark {
+
+bool tells_size(Observe observe, const SensorErrors& errors) {
+  return observe != Observe::kBearing && !(errors.shared_range_sigma_ratio > 0.0);
+}
+
+}  // namespace waymark

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "waymark/core/event.hpp"
+#include "waymark/core/filter.hpp"
+#include "waymark/core/function_blocks.hpp"
+#include "waymark/core/grey_image.hpp"
+#include "waymark/core/map_state.hpp"
+#include "waymark/vision/look.hpp"
+#include "waymark/vision/tracker_counts.hpp"
+
+namespace waymark {
+
+/// What looks into pictures for a filter. The pipeline announces each picture that fits as soon as it
+/// arrives, and then either has it seen when the filter has reached its stamp or drops it.
+class FrontEnd {
+ public:
+  using Picture = std::shared_ptr<const GreyImage>;
+
+  /// What was seen: observations for the filter, which join those of other sensors of the same stamp; or what
+  /// the filter made of it where the front end corrects the filter itself. Valid until the next call.
+  using Seen = std::variant<std::span<const Observation>, const Correction*>;
+
+  FrontEnd() = default;
+  FrontEnd(const FrontEnd&) = delete;
+  FrontEnd& operator=(const FrontEnd&) = delete;
+  virtual ~FrontEnd() = default;
+
+  /// Has it the size of the camera's pictures?
+  [[nodiscard]] virtual bool fits(const ImageView& image) const = 0;
+  /// Does see() correct the filter? Then observations that come with a picture go before it.
+  [[nodiscard]] virtual bool corrects_filter() const = 0;
+  /// Does it take what another program found in a picture?
+  [[nodiscard]] virtual bool takes_outlines() const { return false; }
+
+  /// A picture that will be seen or dropped: it may be looked into from now on.
+  virtual void announce(const Picture& /*picture*/) {}
+  virtual void drop(const Picture& /*picture*/) {}
+
+  /// Looks into a picture that fits, taken at the pose that the filter has reached.
+  virtual Seen see(const Picture& picture) = 0;
+  /// The same where another program has looked.
+  virtual Seen see(const MarkerOutlines& /*outlines*/) { return std::span<const Observation>(); }
+
+  /// Times of its own function blocks.
+  [[nodiscard]] virtual std::span<const FunctionBlocks::Row> blocks() const = 0;
+  /// What was not used and why, and what looks wrong in view of what the filter made of it; one line each.
+  [[nodiscard]] virtual std::vector<std::string> notes(std::span<const Innovation> innovations) const = 0;
+
+  /// What became of everything that was looked for in the last picture, where it looks for something.
+  [[nodiscard]] virtual std::span<const vision::Look> looks() const { return {}; }
+  /// What landmarks look like, where it remembers that. Allocates.
+  [[nodiscard]] virtual std::vector<LandmarkPatch> patches() const { return {}; }
+  [[nodiscard]] virtual vision::TrackerCounts tracker_counts() const { return {}; }
+};
+
+}  // namespace waymark

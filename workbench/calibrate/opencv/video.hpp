@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "workbench/calibrate/picture_source.hpp"
+
+namespace waymark::calibrate::opencv {
+
+/// Null where OpenCV knows no such video.
+[[nodiscard]] std::unique_ptr<PictureSource> open_video(const std::filesystem::path& path);
+
+}  // namespace waymark::calibrate::opencv

@@ -1,0 +1,230 @@
+#include "workbench/config/schema.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "waymark/core/names.hpp"
+
+#include "workbench/config/flat_yaml.hpp"
+#include "workbench/config/read_file.hpp"
+
+namespace waymark {
+namespace {
+
+std::string join(const std::vector<std::string>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) all.append(i + 1 == names.size() ? " or " : ", ");
+    all.append(names[i]);
+  }
+  return all;
+}
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string describe_limits(Limits limits) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (limits.low == -kInfinity && limits.high == kInfinity) return "any number";
+  if (limits.high == kInfinity) return fmt::format("at least {}", limits.low);
+  if (limits.low == -kInfinity) return fmt::format("at most {}", limits.high);
+  return fmt::format("{} to {}", limits.low, limits.high);
+}
+
+template <class Number>
+std::function<bool(std::string_view)> number_setter(Number& field, Limits limits) {
+  return [&field, limits](std::string_view text) {
+    const auto number = parse_number<Number>(text);
+    const bool allowed =
+        number && static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high;
+    if (!allowed) return false;
+    field = *number;
+    return true;
+  };
+}
+
+/// The text as YAML reads it back: in double quotes, with escapes, unless it is surely a plain scalar.
+std::string yaml_scalar(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '/';
+  };
+  const bool null = text == "null" || text == "Null" || text == "NULL";
+  if (parse_number<double>(text) || (!text.empty() && !null && std::ranges::all_of(text, is_plain)))
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += static_cast<unsigned char>(c) < 0x20 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c))
+                                                   : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+}  // namespace
+
+void Schema::add(Key key) {
+  key.default_value = key.get();
+  keys_.push_back(std::move(key));
+}
+
+void Schema::real(std::string name, double& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), limits});
+}
+
+void Schema::integer(std::string name, int& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
+}
+
+void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help) {
+  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
+       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
+}
+
+void Schema::boolean(std::string name, bool& field, std::string help) {
+  auto set = [&field](std::string_view text) {
+    if (text != "true" && text != "false") return false;
+    field = text == "true";
+    return true;
+  };
+  add({std::move(name), std::move(help), "true or false",
+       [&field] { return std::string(field ? "true" : "false"); }, std::move(set)});
+}
+
+void Schema::text(std::string name, std::string& field, std::string help) {
+  auto set = [&field](std::string_view text) {
+    field = text;
+    return true;
+  };
+  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set)});
+}
+
+void Schema::add_choice(std::string name, std::vector<std::string> names, std::string help,
+                        std::function<std::size_t()> get, std::function<void(std::size_t)> set) {
+  auto shared = std::make_shared<const std::vector<std::string>>(std::move(names));
+  auto set_by_name = [shared, set = std::move(set)](std::string_view text) {
+    const auto found = std::ranges::find(*shared, text);
+    if (found == shared->end()) return false;
+    set(static_cast<std::size_t>(found - shared->begin()));
+    return true;
+  };
+  add({std::move(name), std::move(help), join(*shared),
+       [shared, get = std::move(get)] { return (*shared)[get()]; }, std::move(set_by_name)});
+}
+
+const Schema::Key* Schema::find(std::string_view name) const {
+  const auto found = std::ranges::find(keys_, name, &Key::name);
+  return found == keys_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Schema::keys() const {
+  std::vector<std::string> names;
+  for (const auto& key : keys_) names.push_back(key.name);
+  return names;
+}
+
+std::vector<std::string> Schema::close_keys(std::string_view name, std::size_t count) const {
+  // The last part counts as much as the whole: sections are what is left out or mistaken.
+  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
+  const auto distance = [&](const std::string& key) {
+    return std::min(edit_distance(name, key), edit_distance(last_part(name), last_part(key)));
+  };
+  std::vector<std::string> names = keys();
+  std::erase_if(names, [&](const auto& key) {
+    return distance(key) > std::max<std::size_t>(1, last_part(name).size() / 3);
+  });
+  std::ranges::stable_sort(names, {}, distance);
+  names.resize(std::min(count, names.size()));
+  return names;
+}
+
+std::optional<Limits> Schema::limits(std::string_view key) const {
+  const Key* found = find(key);
+  return found == nullptr ? std::nullopt : found->limits;
+}
+
+std::string Schema::value(std::string_view key) const { return find(key)->get(); }
+
+/// A key typed without its section, or with a wrong one, is nearest to the key with the same last part.
+std::string Schema::nearest(std::string_view name) const {
+  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
+  std::vector<std::string> same;
+  for (const auto& key : keys_)
+    if (last_part(key.name) == last_part(name)) same.push_back(key.name);
+  if (same.empty()) return nearest_name(name, keys());
+  return *std::ranges::min_element(same, {},
+                                   [name](const std::string& key) { return edit_distance(key, name); });
+}
+
+bool Schema::was_set(std::string_view key) const {
+  const Key* found = find(key);
+  return found != nullptr && found->was_set;
+}
+
+Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
+  const auto found = std::ranges::find(keys_, key, &Key::name);
+  if (found == keys_.end()) {
+    const std::string guess = nearest(key);
+    return Error{fmt::format(
+        "{}: unknown key {}{}", where, key,
+        guess.empty() ? "; `waymark config` lists all keys" : fmt::format("; did you mean {}?", guess))};
+  }
+  if (!found->set(value))
+    return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
+  found->was_set = true;
+  return {};
+}
+
+Result<void> Schema::set_assignment(std::string_view assignment, std::string_view where) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    return Error{fmt::format("{}: '{}' is not of the form key=value", where, assignment)};
+  return set(assignment.substr(0, equals), assignment.substr(equals + 1), where);
+}
+
+Result<void> Schema::load_text(const std::string& yaml, const std::string& name) {
+  const auto entries = flatten_yaml(yaml, name);
+  if (!entries) return entries.error();
+  for (const auto& [key, value, line] : *entries)
+    if (auto done = set(key, value, fmt::format("{}:{}", name, line)); !done) return done;
+  return {};
+}
+
+Result<void> Schema::load_file(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  return text ? load_text(*text, path.string()) : text.error();
+}
+
+std::string Schema::to_yaml() const {
+  // "section." of a key, "" where it has none: npos + 1 is 0.
+  const auto section_of = [](const Key& key) { return key.name.substr(0, key.name.find('.') + 1); };
+  std::vector<std::string> sections;
+  for (const auto& key : keys_)
+    if (std::ranges::find(sections, section_of(key)) == sections.end()) sections.push_back(section_of(key));
+  std::string yaml;
+  for (const auto& section : sections) {
+    if (!section.empty()) yaml += "\n" + section.substr(0, section.size() - 1) + ":\n";
+    const std::string indent = section.empty() ? "" : "  ";
+    for (const auto& key : keys_) {
+      if (section_of(key) != section) continue;
+      yaml += fmt::format("{}# {} ({}; default {})\n", indent, key.help, key.allowed,
+                          key.default_value.empty() ? "empty" : yaml_scalar(key.default_value));
+      yaml += fmt::format("{}{}: {}\n", indent, key.name.substr(section.size()), yaml_scalar(key.get()));
+    }
+  }
+  return yaml;
+}
+
+}  // namespace waymark

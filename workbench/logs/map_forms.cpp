@@ -1,0 +1,176 @@
+#include "workbench/logs/map_forms.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "workbench/logs/files.hpp"
+#include "workbench/logs/json_text.hpp"
+#include "workbench/logs/map_files.hpp"
+
+namespace waymark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Form { kWaymark, kJson, kCsv };
+
+Result<Form> form_of(const std::filesystem::path& path) {
+  const auto extension = path.extension();
+  if (extension == ".waymark") return Form::kWaymark;
+  if (extension == ".json") return Form::kJson;
+  if (extension == ".csv") return Form::kCsv;
+  return Error{path.string() + ": a map's file ends with .waymark, .json or .csv"};
+}
+
+Json landmarks_json(const MapState& map) {
+  Json landmarks = Json::array();
+  const int d = map.landmark_dimension;
+  for (std::size_t i = 0; i < map.ids.size(); ++i) {
+    const Eigen::VectorXd position = map.landmarks.segment(static_cast<Eigen::Index>(i) * d, d);
+    landmarks.push_back({{"kind", family_name(map.ids[i].family)},
+                         {"number", map.ids[i].number},
+                         {"sightings", map.observations[i]},
+                         {"position_m", std::vector<double>(position.begin(), position.end())}});
+  }
+  return landmarks;
+}
+
+Json patches_json(const MapState& map) {
+  Json patches = Json::array();
+  for (const LandmarkPatch& patch : map.patches) {
+    const Pose2& pose = patch.T_world_robot;
+    patches.push_back({{"kind", family_name(patch.id.family)},
+                       {"number", patch.id.number},
+                       {"pose", {pose.x_m, pose.y_m, pose.theta_rad}},
+                       {"pixels", patch.pixels}});
+  }
+  return patches;
+}
+
+Pose2 pose_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+
+LandmarkId id_of(const Json& json) {
+  return {family_named(json.at("kind").get<std::string>()).value(), json.at("number")};
+}
+
+std::string format_json(const MapState& map) {
+  const Pose2& pose = map.T_world_robot;
+  Json json{{"waymark_map", 1},
+            {"made_by", map.made_by},
+            {"stamp_s", to_string(map.stamp)},
+            {"pose", {pose.x_m, pose.y_m, pose.theta_rad}},
+            {"landmark_dimension", map.landmark_dimension},
+            {"landmarks", landmarks_json(map)},
+            {"covariance", Json::array()},
+            {"patches", patches_json(map)}};
+  for (Eigen::Index i = 0; i < map.covariance.rows(); ++i) {
+    const Eigen::VectorXd row = map.covariance.row(i).tail(map.covariance.cols() - i);
+    json["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return json_text(json, 1) + '\n';
+}
+
+MapState map_of(const Json& json) {
+  MapState map;
+  map.made_by = json.at("made_by").get<std::string>();
+  map.stamp = parse_stamp(json.at("stamp_s").get<std::string>()).value();
+  map.T_world_robot = pose_of(json.at("pose"));
+  map.landmark_dimension = json.at("landmark_dimension");
+  std::vector<double> coordinates;
+  for (const Json& landmark : json.at("landmarks")) {
+    map.ids.push_back(id_of(landmark));
+    map.observations.push_back(landmark.at("sightings"));
+    for (const Json& coordinate : landmark.at("position_m")) coordinates.push_back(coordinate);
+  }
+  map.landmarks =
+      Eigen::Map<const Eigen::VectorXd>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size()));
+  const Json& rows = json.at("covariance");
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  map.covariance.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = i; j < n; ++j)
+      map.covariance(i, j) = map.covariance(j, i) =
+          rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j - i));
+  for (const Json& patch : json.at("patches"))
+    map.patches.push_back({id_of(patch), pose_of(patch.at("pose")), patch.at("pixels")});
+  return map;
+}
+
+/// What is no belief is refused as it is in map.waymark.
+Result<MapState> checked(const MapState& map, const std::string& name) {
+  auto text = format_map(map);
+  if (!text) return Error{name + ": " + text.error().message};
+  return parse_map(*std::move(text), name);
+}
+
+Result<MapState> read_json(const std::filesystem::path& path) {
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  try {
+    const Json json = Json::parse(*text);
+    if (json.at("waymark_map") != 1)
+      return Error{fmt::format("{}: version {} of the map format; this program reads 1", path.string(),
+                               json_text(json.at("waymark_map")))};
+    return checked(map_of(json), path.string());
+  } catch (const std::exception& problem) {
+    return Error{fmt::format("{}: is no map: {}", path.string(), problem.what())};
+  }
+}
+
+Result<MapState> read_csv(const std::filesystem::path& path) {
+  const auto landmarks = read_map_csv(path);
+  if (!landmarks) return landmarks.error();
+  const bool flat = std::ranges::all_of(*landmarks, [](const LandmarkEstimate& landmark) {
+    return landmark.position_m.z() == 0.0 && landmark.covariance.col(2).isZero(0.0);
+  });
+  MapState map;
+  map.made_by = "waymark map convert of " + path.filename().string();
+  const Eigen::Index d = map.landmark_dimension = flat ? 2 : 3;
+  const Eigen::Index n = 3 + d * std::ssize(*landmarks);
+  map.landmarks.resize(n - 3);
+  map.covariance = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index at = 0; const LandmarkEstimate& landmark : *landmarks) {
+    map.ids.push_back(landmark.id);
+    map.observations.push_back(landmark.observations);
+    map.landmarks.segment(at, d) = landmark.position_m.head(d);
+    map.covariance.block(3 + at, 3 + at, d, d) = landmark.covariance.topLeftCorner(d, d);
+    at += d;
+  }
+  return checked(map, path.string());
+}
+
+}  // namespace
+
+Snapshot snapshot_of(const MapState& map) {
+  Snapshot snapshot{map.stamp, {map.T_world_robot, map.covariance.topLeftCorner<3, 3>()}, {}};
+  const Eigen::Index d = map.landmark_dimension;
+  for (std::size_t i = 0; i < map.ids.size(); ++i) {
+    const Eigen::Index at = d * static_cast<Eigen::Index>(i);
+    LandmarkEstimate landmark{.id = map.ids[i], .observations = map.observations[i]};
+    landmark.position_m.head(d) = map.landmarks.segment(at, d);
+    landmark.covariance.topLeftCorner(d, d) = map.covariance.block(3 + at, 3 + at, d, d);
+    snapshot.landmarks.push_back(landmark);
+  }
+  return snapshot;
+}
+
+Result<MapState> read_map_of_any_form(const std::filesystem::path& path) {
+  const auto form = form_of(path);
+  if (!form) return form.error();
+  if (*form == Form::kWaymark) return read_map(path);
+  return *form == Form::kJson ? read_json(path) : read_csv(path);
+}
+
+Result<void> write_map_of_any_form(const std::filesystem::path& path, const MapState& map) {
+  const auto form = form_of(path);
+  if (!form) return form.error();
+  if (*form == Form::kWaymark) return write_map(path, map);
+  return *form == Form::kJson ? write_file(path, format_json(map)) : write_map_csv(path, snapshot_of(map));
+}
+
+}  // namespace waymark

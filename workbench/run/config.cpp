@@ -1,0 +1,156 @@
+#include "workbench/run/config.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "workbench/config/camera_keys.hpp"
+#include "workbench/config/filter_keys.hpp"
+#include "workbench/config/robot_keys.hpp"
+#include "workbench/logs/image_loader.hpp"
+#include "workbench/run/open_source.hpp"
+#include "workbench/sim/simulation.hpp"
+
+namespace waymark {
+namespace {
+
+constexpr std::string_view kSimulationPrefix = "sim:";
+
+Result<void> apply(Schema& schema, const std::vector<std::string>& assignments, const char* who) {
+  for (const auto& assignment : assignments)
+    if (auto done = schema.set_assignment(assignment, who); !done) return done;
+  return {};
+}
+
+Result<void> apply(Schema& schema, const UserSettings& user) {
+  for (const auto& file : user.files)
+    if (auto done = schema.load_file(file); !done) return done;
+  return apply(schema, user.assignments, "--set");
+}
+
+Result<void> apply(Schema& schema, const LogInfo& log) {
+  if (log.only_pixels)
+    if (auto done = schema.set("observe", "pixel", log.name); !done) return done;
+  for (const auto& [key, value] : log.settings)
+    if (auto done = schema.set(key, value, log.name); !done) return done;
+  return {};
+}
+
+/// What a filter does best where sightings have no identity.
+const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
+
+bool sets_mount(const Schema& schema) {
+  return std::ranges::any_of(schema.keys(), [&schema](const std::string& key) {
+    return key.starts_with("camera.mount_") && schema.was_set(key);
+  });
+}
+
+Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
+  if (input.starts_with(kSimulationPrefix))
+    return open_simulation(input.substr(kSimulationPrefix.size()), user);
+  Config config;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  config.input.seed = config.seed;
+  if (sets_mount(schema)) config.input.bag.mount = config.camera.mount;
+  return open_source(input, config.input);
+}
+
+/// Does the user say what markers there are, and not what else to observe?
+bool wants_markers(const UserSettings& user) {
+  Config config;
+  Schema schema = describe(config);
+  return apply(schema, user) && !schema.was_set("observe") &&
+         (schema.was_set("markers.dictionary") || schema.was_set("markers.size_m") ||
+          schema.was_set("markers.sizes_m"));
+}
+
+/// Range and bearing of markers are measured from the camera.
+void put_sensor_at_camera(Config& config) {
+  const CameraMount& mount = config.camera.mount;
+  config.sensor.x_m = mount.x_m;
+  config.sensor.y_m = mount.y_m;
+  config.sensor.yaw_deg = mount.yaw_deg;
+}
+
+}  // namespace
+
+const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
+
+Schema describe(Config& config) {
+  Schema schema;
+  schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
+  schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel", "markers"},
+                "which part of the observations is used; pixel: natural corners in images, or given pixels; "
+                "markers: ArUco markers or AprilTags in images; the default is what the log offers");
+  schema.choice(
+      "associate", config.associate, {"known", "nearest", "jcbb", "ml"},
+      "how observations find their landmarks: by identity alone, or also without one: nearest (pair "
+      "by pair) and jcbb (jointly) are the EKF's, ml (by maximum likelihood) is FastSLAM's; the "
+      "default is what the log allows");
+  schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
+  schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
+  describe(schema, config.input);
+  describe(schema, config.odometry);
+  describe(schema, config.sensor);
+  describe(schema, config.camera);
+  describe(schema, config.map);
+  describe(schema, config.pipeline);
+  describe(schema, config.gate);
+  describe(schema, config.association);
+  describe(schema, config.ekf);
+  describe(schema, config.pixel);
+  describe(schema, config.tracker);
+  describe(schema, config.search);
+  describe(schema, config.markers);
+  describe(schema, config.fastslam);
+  describe(schema, config.smooth);
+  sim::describe(schema, config.sim);
+  return schema;
+}
+
+Result<Config> resolve_config(const UserSettings& user) {
+  Config config;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  return config;
+}
+
+Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, const UserSettings& user) {
+  auto world = sim::scenario(scenario);
+  if (!world) return world.error();
+  Config config;
+  config.sim = *world;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed, config.threads);
+  if (!simulation) return simulation.error();
+  return std::unique_ptr<Source>(std::move(*simulation));
+}
+
+Result<OpenedInput> open_input(const std::string& input, const UserSettings& user) {
+  auto source = open(input, user);
+  if (!source) return source.error();
+  Config config;
+  if (input.starts_with(kSimulationPrefix))
+    config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
+  Schema schema = describe(config);
+  const LogInfo& log = (*source)->info();
+  if (auto done = apply(schema, user.defaults, "defaults"); !done) return done.error();
+  if (auto done = apply(schema, log); !done) return done.error();
+  if (auto done = apply(schema, user); !done) return done.error();
+  if (wants_markers(user))
+    if (auto done = schema.set("observe", "markers", "--set"); !done) return done.error();
+  config.camera_known = schema.was_set("camera.fu_px");
+  if (!log.identities && config.observe != Observe::kMarkers) {
+    // The filter is settled now; but the user may have said how to associate, too.
+    if (auto done = schema.set("associate", without_identities(config.filter), log.name); !done)
+      return done.error();
+    if (auto done = apply(schema, user); !done) return done.error();
+  }
+  if (config.observe == Observe::kMarkers) put_sensor_at_camera(config);
+  if (config.observe == Observe::kPixel || config.observe == Observe::kMarkers)
+    *source = std::make_unique<ImageLoader>(std::move(*source));
+  return OpenedInput{std::move(*source), config};
+}
+
+}  // namespace waymark

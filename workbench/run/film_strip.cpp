@@ -1,0 +1,22 @@
+#include "workbench/run/film_strip.hpp"
+
+#include <utility>
+
+namespace waymark {
+
+void FilmStrip::add(Stamp stamp, const GreyImage& picture, std::span<const vision::Look> looks,
+                    std::span<const Innovation> innovations) {
+  if (seen_++ % every_ != 0) return;
+  if (frames_.size() == most_) {
+    for (std::size_t i = 1; 2 * i < most_; ++i) frames_[i] = std::move(frames_[2 * i]);
+    frames_.resize((most_ + 1) / 2);
+    every_ *= 2;
+    if ((seen_ - 1) % every_ != 0) return;
+  }
+  FilmFrame& frame = frames_.emplace_back(FilmFrame{stamp, picture, {}, {}});
+  frame.looks.assign(looks.begin(), looks.end());
+  for (const Innovation& innovation : innovations)
+    if (innovation.outcome == Outcome::kGated) frame.refused.push_back(innovation.landmark);
+}
+
+}  // namespace waymark

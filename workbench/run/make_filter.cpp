@@ -1,0 +1,127 @@
+#include "workbench/run/make_filter.hpp"
+
+#include "waymark/ekf/localizer.hpp"
+#include "waymark/ekf/pixel_slam.hpp"
+#include "waymark/fastslam/fast_slam.hpp"
+#include "waymark/markers/marker_front_end.hpp"
+#include "waymark/slam/corner_front_end.hpp"
+
+namespace waymark {
+namespace {
+
+std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
+  if (config.associate == Association::kKnown) return std::nullopt;
+  return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
+}
+
+/// Where nothing tells how large the world is, distances are what the odometry says.
+EkfOptions ekf_options(const Config& config) {
+  EkfOptions options = config.ekf;
+  if (!tells_size(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
+  return options;
+}
+
+/// EKF-SLAM over ranges, bearings or both.
+std::unique_ptr<Filter> make_planar_ekf(const Config& config, const std::optional<MapState>& start) {
+  const auto T_robot_sensor = config.sensor.T_robot_sensor();
+  if (config.map.localize && start)
+    return std::make_unique<Localizer>(*start, ekf_options(config), config.gate, T_robot_sensor,
+                                       config.threads, config.sensor.errors, unnamed(config));
+  EkfOptions options = ekf_options(config);
+  if (start) options.loaded = static_cast<int>(start->ids.size());
+  auto filter = std::make_unique<EkfSlam>(options, config.gate, T_robot_sensor, config.threads,
+                                          config.sensor.errors, unnamed(config));
+  if (start) filter->load(*start);
+  return filter;
+}
+
+FilterSystem make_pixel_ekf(const Config& config, const std::optional<MapState>& start) {
+  auto filter = std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads);
+  auto front_end = std::make_unique<CornerFrontEnd>(*filter, config.tracker, config.search,
+                                                    Camera(config.camera), config.threads);
+  if (start) {
+    filter->load(*start);
+    front_end->remember(start->patches);
+  }
+  return {std::move(filter), std::move(front_end)};
+}
+
+Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState>& start) {
+  if (config.associate == Association::kMl)
+    return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
+  if (config.associate != Association::kKnown && !tells_place(config.observe))
+    return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
+  if (config.ekf.update == UpdateMethod::kTextbook &&
+      (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
+    return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
+  if (config.ekf.odometry.estimate &&
+      (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
+    return Error{
+        "ekf.calibrate_odometry: not with observe=pixel, nor with ekf.compressed=true: it moves the whole "
+        "map"};
+  if (config.observe == Observe::kPixel) return make_pixel_ekf(config, start);
+  return FilterSystem{make_planar_ekf(config, start), nullptr};
+}
+
+Result<FilterSystem> make_fastslam(const Config& config) {
+  if (config.observe == Observe::kPixel)
+    return Error{"filter: fastslam does not take pixels; filter=ekf does, or choose another observe"};
+  if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
+    return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
+  const bool by_likelihood = config.associate == Association::kMl;
+  if (by_likelihood && (config.observe == Observe::kRange || config.observe == Observe::kBearing))
+    return Error{
+        "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
+  return FilterSystem{std::make_unique<FastSlam>(
+                          config.fastslam, config.gate, config.sensor, config.seed, config.threads,
+                          PoseEstimate{}, by_likelihood ? std::optional(config.association) : std::nullopt),
+                      nullptr};
+}
+
+}  // namespace
+
+Result<std::optional<MapState>> read_start_map(const Config& config) {
+  const bool pixels = config.observe == Observe::kPixel;
+  if (config.map.localize && config.map.file.empty())
+    return Error{"map.localize: needs a saved map: --map FILE (config key map.file)"};
+  if (config.map.file.empty()) return std::optional<MapState>{};
+  if (config.filter != FilterKind::kEkf || (!pixels && !tells_place(config.observe)))
+    return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing, markers or pixel"};
+  if (config.map.localize && pixels)
+    return Error{
+        "map.localize: needs observe=range-bearing or markers; with pixels a run goes on from the pose in "
+        "the map "
+        "(map.localize=false)"};
+  if (config.smooth.run)
+    return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
+  auto map = pixels ? read_start_map(config.map, 3, config.pixel.capacity)
+                    : read_start_map(config.map, 2, config.ekf.capacity);
+  if (!map) return map.error();
+  return std::optional(*std::move(map));
+}
+
+Result<std::unique_ptr<FrontEnd>> make_marker_front_end(const Config& config) {
+  if (config.observe != Observe::kMarkers) return std::unique_ptr<FrontEnd>();
+  auto markers = MarkerFrontEnd::make(config.markers, Camera(config.camera));
+  if (!markers) return markers.error();
+  return std::unique_ptr<FrontEnd>(*std::move(markers));
+}
+
+Result<FilterSystem> make_filter_system(const Config& config, const std::optional<MapState>& start) {
+  auto system = config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
+  if (!system || config.observe != Observe::kMarkers) return system;
+  auto markers = make_marker_front_end(config);
+  if (!markers) return markers.error();
+  system->front_end = *std::move(markers);
+  return system;
+}
+
+Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
+  const auto start = read_start_map(config);
+  if (!start) return start.error();
+  auto system = make_filter_system(config, *start);
+  if (!system) return system.error();
+  return std::move(system->filter);
+}
+
+}  // namespace waymark

@@ -1,0 +1,38 @@
+#include "workbench/run/map_options.hpp"
+
+#include <fmt/format.h>
+
+#include "waymark/vision/patch.hpp"
+
+#include "workbench/logs/map_files.hpp"
+
+namespace waymark {
+
+void describe(Schema& schema, MapOptions& options) {
+  schema.text("map.file", options.file, "saved map (map.waymark) to start from; empty: an empty map");
+  schema.boolean("map.localize", options.localize,
+                 "hold the map of map.file as it is and find the pose alone, from anywhere in it");
+}
+
+Result<MapState> read_start_map(const MapOptions& options, int dimension, int capacity) {
+  auto map = read_map(options.file);
+  if (!map) return map;
+  if (map->landmark_dimension != dimension)
+    return Error{
+        fmt::format("{}: its landmarks are of dimension {}; what is observed (observe) needs a map of "
+                    "dimension {}: 2 for range and bearing, 3 for pixels",
+                    options.file, map->landmark_dimension, dimension)};
+  if (std::ssize(map->ids) > capacity)
+    return Error{fmt::format("{}: {} landmarks are more than {}={} has room for; set it to more",
+                             options.file, map->ids.size(),
+                             dimension == 2 ? "ekf.capacity" : "pixel.capacity", capacity)};
+  constexpr std::size_t kPixels = vision::ReferencePatch::kSide * vision::ReferencePatch::kSide;
+  for (const LandmarkPatch& patch : map->patches)
+    if (patch.pixels.size() != kPixels)
+      return Error{fmt::format("{}: the patch of landmark {} has {} pixels; {} x {} are needed", options.file,
+                               to_string(patch.id), patch.pixels.size(), vision::ReferencePatch::kSide,
+                               vision::ReferencePatch::kSide)};
+  return map;
+}
+
+}  // namespace waymark

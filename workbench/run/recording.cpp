@@ -1,0 +1,225 @@
+#include "workbench/run/recording.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "waymark/slam/pipeline.hpp"
+
+#include "workbench/run/make_filter.hpp"
+
+namespace waymark {
+namespace {
+
+/// Counts of the pipeline as lines for a person.
+std::vector<std::string> describe_counts(const PipelineCounts& counts) {
+  std::vector<std::string> lines;
+  const auto note = [&lines](std::int64_t count, const char* what) {
+    if (count > 0) lines.push_back(fmt::format("{} {}", count, what));
+  };
+  note(counts.late, "events dropped: they came later than pipeline.reorder_window_s allows");
+  note(counts.unusable, "observations dropped: not finite or outside the sensor's range limits");
+  note(counts.wrong_kind, "observations dropped: they lack what `observe` asks for");
+  note(counts.other_odometry, "odometry events ignored: of a second kind or device");
+  note(counts.other_robots, "events ignored: of another robot than the first");
+  note(counts.robots_seen, "observations dropped: of other robots, which are no landmarks");
+  note(counts.misfits, "pictures skipped: another size than camera.width_px x camera.height_px");
+  note(counts.repeats, "pictures skipped: the stamp or every pixel of the one before");
+  note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
+  return lines;
+}
+
+std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInnovation>& innovations) {
+  std::vector<std::string> lines;
+  for (const Outcome outcome :
+       {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous, Outcome::kDuplicate,
+        Outcome::kMapFull, Outcome::kNotInMap}) {
+    const auto count = std::ranges::count_if(
+        innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
+    if (count > 0)
+      lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
+  }
+  return lines;
+}
+
+std::vector<std::string> describe_untold(const Config& config) {
+  if (!config.ekf.odometry.estimate || config.filter != FilterKind::kEkf ||
+      tells_size(config.observe, config.sensor.errors))
+    return {};
+  return {
+      "motion.speed_scale was not estimated: without ranges of known scale nothing tells a large world from "
+      "a small one"};
+}
+
+/// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
+void keep_for_smoothing(Recording& recording, const Step& step) {
+  recording.motions.push_back(step.motion);
+  if (step.correction == nullptr || step.correction->innovations.size() != step.observations.size()) return;
+  for (std::size_t i = 0; i < step.observations.size(); ++i) {
+    const Innovation& innovation = step.correction->innovations[i];
+    recording.sightings.push_back(
+        {recording.trajectory.size() - 1, innovation.landmark, innovation.outcome, step.observations[i]});
+  }
+}
+
+/// Keeps what the pipeline reports.
+void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
+  recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
+  recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
+  if (step.correction == nullptr) return;
+  if (step.picture != nullptr && front_end != nullptr)
+    recording.film.add(step.stamp, *step.picture, front_end->looks(), step.correction->innovations);
+  recording.steps.push_back({step.stamp, step.cpu});
+  for (const Innovation& innovation : step.correction->innovations)
+    recording.innovations.push_back({step.stamp, innovation});
+}
+
+/// Feeds the source's events within the span to `accept`; the reason if reading broke off.
+std::optional<Error> read_all(Source& source, const TimeSpan& span,
+                              const std::function<bool(double)>& keep_going,
+                              const std::function<Result<void>(Event)>& accept) {
+  constexpr int kEventsPerQuestion = 256;
+  std::optional<Stamp> start;
+  for (std::int64_t count = 0;; ++count) {
+    if (keep_going && count % kEventsPerQuestion == 0 && !keep_going(source.progress()))
+      return Error{"stopped; the results up to here are kept", Error::Kind::kFailed};
+    auto event = source.next();
+    if (!event) return event.error();
+    if (!*event) return std::nullopt;
+    if (!start) start = (*event)->stamp;
+    const double elapsed_s = to_seconds((*event)->stamp - *start);
+    if (elapsed_s > span.to_s) return std::nullopt;
+    if (elapsed_s < span.from_s) continue;
+    if (auto accepted = accept(std::move(**event)); !accepted) return accepted.error();
+  }
+}
+
+bool looks_into_pictures(Observe observe) {
+  return observe == Observe::kPixel || observe == Observe::kMarkers;
+}
+
+bool shows_pixels(const EventContent& content) {
+  const auto* observations = std::get_if<Observations>(&content);
+  return std::holds_alternative<Image>(content) || std::holds_alternative<MarkerOutlines>(content) ||
+         (observations != nullptr && std::ranges::any_of(*observations, [](const Observation& each) {
+            return std::holds_alternative<Pixel>(each.value);
+          }));
+}
+
+/// What cannot be understood without knowing what it was measured with.
+Result<void> check_sensor_of(const Event& event, const Config& config) {
+  if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
+  if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
+  if (config.camera_known || !looks_into_pictures(config.observe) || !shows_pixels(event.content)) return {};
+  return Error{
+      "camera.fu_px: nobody says what the camera is like: put its camera_info file, as `waymark calibrate "
+      "camera PHOTOS` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
+      "camera.fu_px, camera.fv_px, camera.cu_px and camera.cv_px; for a bag name the file: "
+      "input.camera_file"};
+}
+
+/// Truth goes to the record, the rest to the pipeline; wheels, cars and cameras that nobody knows end the
+/// run.
+Result<void> route(Event event, const Config& config, Recording& recording, Pipeline& pipeline) {
+  if (const auto* truth = std::get_if<Truth>(&event.content)) {
+    recording.truth.emplace_back(event.stamp, *truth);
+    return {};
+  }
+  if (auto known = check_sensor_of(event, config); !known) return known;
+  pipeline.push(std::move(event));
+  if (auto refusal = recording.filter->refusal()) return *std::move(refusal);
+  return {};
+}
+
+/// Where every observation lacks what the mode asks for, dead reckoning would pass for a result.
+std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe) {
+  if (observe == Observe::kMarkers && recording.counts.pictures == 0)
+    return Error{
+        "observe: this log has no picture in which markers could be found; `waymark check` lists what it "
+        "has"};
+  if (observe == Observe::kPixel && recording.counts.pictures == 0 && recording.innovations.empty())
+    return Error{
+        "observe: this log has no picture and no pixel observation that can be used; `waymark check` lists "
+        "what it has"};
+  if (recording.counts.wrong_kind == 0 || recording.counts.unusable > 0 || !recording.innovations.empty())
+    return std::nullopt;
+  return Error{
+      "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
+}
+
+/// Where the robot never found itself there is no result.
+std::optional<Error> find_unknown_pose(const Filter& filter) {
+  if (filter.refusal() || filter.knows_pose()) return filter.refusal();
+  return Error{
+      "map: the robot was not found in it up to the end: too few of its landmarks were seen; three will do"};
+}
+
+void finish_pictures(Recording& recording, const Config& config, const FrontEnd& front_end) {
+  recording.patches = front_end.patches();
+  recording.tracker = front_end.tracker_counts();
+  if (config.observe == Observe::kPixel)
+    recording.frame_budget = duration_from_seconds(1e-3 * config.tracker.budget.per_frame_ms);
+  std::vector<Innovation> innovations;
+  for (const auto& each : recording.innovations) innovations.push_back(each.innovation);
+  std::ranges::move(front_end.notes(innovations), std::back_inserter(recording.notes));
+}
+
+/// Those of the filter and of what looks into pictures for it, by their names.
+std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const FrontEnd* front_end) {
+  const auto of_filter = filter.blocks().rows();
+  std::vector<FunctionBlocks::Row> rows(of_filter.begin(), of_filter.end());
+  if (front_end == nullptr) return rows;
+  const auto of_front_end = front_end->blocks();
+  rows.insert(rows.end(), of_front_end.begin(), of_front_end.end());
+  std::ranges::sort(rows, {}, &FunctionBlocks::Row::name);
+  return rows;
+}
+
+}  // namespace
+
+Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
+                         const std::function<bool(double)>& keep_going) {
+  const auto start_map = read_start_map(config);
+  if (!start_map) return start_map.error();
+  auto system = make_filter_system(config, *start_map);
+  if (!system) return system.error();
+  Recording recording;
+  recording.filter = std::move(system->filter);
+  FrontEnd* const front_end = system->front_end.get();
+  Pipeline pipeline(
+      *recording.filter, config.pipeline, config.odometry, config.sensor, config.observe,
+      [&](const Step& step) {
+        if (!recording.filter->knows_pose()) return;
+        keep(recording, step, front_end);
+        if (config.smooth.run) keep_for_smoothing(recording, step);
+      },
+      front_end);
+  const auto start = std::chrono::steady_clock::now();
+  recording.error = read_all(source, span, keep_going, [&](Event event) {
+    return route(std::move(event), config, recording, pipeline);
+  });
+  pipeline.finish();
+  if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
+  recording.wall = std::chrono::steady_clock::now() - start;
+  recording.counts = pipeline.counts();
+  recording.odometry = pipeline.odometry();
+  recording.blocks = blocks_of(*recording.filter, front_end);
+  if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
+  recording.notes = source.notes();
+  if (front_end != nullptr) finish_pictures(recording, config, *front_end);
+  std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
+  std::ranges::move(describe_untold(config), std::back_inserter(recording.notes));
+  std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
+  return recording;
+}
+
+MapState save_map(const Recording& recording) {
+  MapState map = recording.filter->save();
+  if (!recording.trajectory.empty()) map.stamp = recording.trajectory.back().stamp;
+  for (const LandmarkPatch& patch : recording.patches)
+    if (std::ranges::find(map.ids, patch.id) != map.ids.end()) map.patches.push_back(patch);
+  return map;
+}
+
+}  // namespace waymark

@@ -1,0 +1,99 @@
+#include "workbench/sim/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "waymark/core/random.hpp"
+
+#include "workbench/sim/wheels.hpp"
+
+namespace waymark::sim {
+namespace {
+
+// Distances over which an error is steered away; four to one is critical damping.
+constexpr double kSettle_m = 0.25;
+constexpr double kLookahead_m = 1.0;
+
+int steps_of(const Leg& leg, const SimOptions& options) {
+  const double turn_rate_max = to_radians(options.path.turn_rate_max_degps);
+  const double duration_s =
+      std::max(leg.arc.distance_m / options.path.speed_mps, std::abs(leg.arc.turn_rad) / turn_rate_max);
+  return static_cast<int>(std::ceil(duration_s * options.wheels.rate_hz - 1e-9));
+}
+
+// A robot that turns on the spot leaves its errors for the next straight line.
+ArcStep steer(const ArcStep& planned, const Pose2& T_world_planned, const Pose2& T_world_robot) {
+  const Pose2 error = T_world_robot.inverse() * T_world_planned;
+  const double lookahead_m = std::max(kLookahead_m, 2.0 * planned.distance_m);
+  const double gain = 1.0 - std::exp(-planned.distance_m / kSettle_m);
+  const double heading_rad = error.theta_rad + std::atan(error.y_m / lookahead_m);
+  return {planned.distance_m + gain * error.x_m, planned.turn_rad + gain * heading_rad};
+}
+
+class Driver {
+ public:
+  Driver(const SimOptions& options, const Pose2& T_world_start, std::uint64_t seed)
+      : options_(options), seed_(seed), T_world_robot_(T_world_start) {
+    drive_.rate_hz = options.wheels.rate_hz;
+  }
+
+  void follow(const Leg& leg) {
+    const int count = steps_of(leg, options_);
+    for (int i = 0; i < count; ++i) {
+      const ArcStep planned{leg.arc.distance_m / count, leg.arc.turn_rad / count};
+      step(steer(planned, leg.at(static_cast<double>(i) / count), T_world_robot_));
+    }
+    if (leg.arc.distance_m > 0.0) drive_.corners.push_back(drive_.steps.size());
+  }
+
+  [[nodiscard]] Drive finish() && { return std::move(drive_); }
+
+ private:
+  void step(const ArcStep& command) {
+    RandomStream random(seed_, StreamPurpose::kSimulation, drive_.steps.size(), 0);
+    DriveStep next{T_world_robot_, command, draw_slip(options_.wheels, command, random), {}};
+    next.counted = encoder_increment(options_.wheels, command, random);
+    T_world_robot_ = next.at(1.0);
+    drive_.steps.push_back(next);
+  }
+
+  const SimOptions& options_;
+  std::uint64_t seed_;
+  Pose2 T_world_robot_;
+  Drive drive_;
+};
+
+}  // namespace
+
+Pose2 DriveStep::at(double fraction) const {
+  const ArcStep part{fraction * command.distance_m, fraction * command.turn_rad};
+  const Pose2 rolled = arc_increment(part, ArcModel::kExact);
+  return T_world_robot * Pose2{rolled.x_m + fraction * slip.x(), rolled.y_m + fraction * slip.y(),
+                               rolled.theta_rad + fraction * slip.z()};
+}
+
+Stamp Drive::stamp(std::size_t step) const { return stamp_from_seconds(static_cast<double>(step) / rate_hz); }
+
+Pose2 Drive::at(Stamp when) const {
+  const auto nearest = static_cast<std::size_t>(std::max(0.0, std::round(to_seconds(when) * rate_hz)));
+  const std::size_t before = nearest > 0 && stamp(nearest) > when ? nearest - 1 : nearest;
+  const std::size_t step = std::min(before, steps.size() - 1);
+  return steps[step].at(to_seconds(when - stamp(step)) / to_seconds(stamp(step + 1) - stamp(step)));
+}
+
+double lap_duration_s(const Path& path, const SimOptions& options) {
+  double steps = 0.0;
+  for (const Leg& leg : path) steps += steps_of(leg, options);
+  return steps / options.wheels.rate_hz;
+}
+
+Drive drive(const Path& path, const SimOptions& options, std::uint64_t seed) {
+  Driver driver(options, path.front().T_world_start, seed);
+  for (int lap = 0; lap < options.path.laps; ++lap) {
+    for (const Leg& leg : path) driver.follow(leg);
+  }
+  return std::move(driver).finish();
+}
+
+}  // namespace waymark::sim

@@ -1,0 +1,398 @@
+#include "workbench/sim/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "waymark/core/angle.hpp"
+#include "waymark/core/names.hpp"
+
+#include "workbench/sim/marker_pattern.hpp"
+
+namespace waymark::sim {
+namespace {
+
+constexpr Limits kProbability{0.0, 1.0};
+constexpr Limits kVariance{0.0, 1.0};
+
+void describe(Schema& schema, PathOptions& o) {
+  schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random", "loop"},
+                "closed path of one lap");
+  schema.real("sim.side_m", o.side_m, {0.5, 1000.0},
+              "side of the square that the path fits into; a loop is a third as wide as long");
+  schema.integer("sim.laps", o.laps, {1, 1000}, "times round the path");
+  schema.integer("sim.waypoints", o.waypoints, {3, 1000}, "corners of a random path");
+  schema.real("sim.corner_radius_m", o.corner_radius_m, {0.0, 100.0},
+              "radius of the corners; 0: the robot turns on the spot");
+  schema.real("sim.speed_mps", o.speed_mps, {0.01, 10.0}, "speed on straight lines");
+  schema.real("sim.turn_rate_max_degps", o.turn_rate_max_degps, {1.0, 720.0}, "fastest planned turn");
+}
+
+void describe(Schema& schema, WorldOptions& o) {
+  schema.integer("sim.landmarks", o.landmarks, {0, 10000}, "landmarks in the world");
+  schema.choice("sim.landmark_spread", o.spread, {"path", "area"},
+                "landmarks stand on both sides of the path, or anywhere in a square about the origin");
+  schema.real("sim.landmark_area_m", o.area_m, {0.5, 10000.0}, "side of that square");
+  schema.real("sim.landmark_min_offset_m", o.min_offset_m, {0.0, 100.0},
+              "least distance of a landmark from the path");
+  schema.real("sim.landmark_max_offset_m", o.max_offset_m, {0.1, 100.0},
+              "largest distance of a landmark from the path it is placed along");
+  schema.real("sim.landmark_separation_m", o.separation_m, {0.0, 100.0},
+              "wanted distance between landmarks; halved as often as it takes to find room");
+}
+
+void describe(Schema& schema, WheelOptions& o) {
+  schema.choice("sim.odometry", o.odometry, {"wheels", "velocity", "pose"},
+                "how the log states the odometry");
+  schema.real("sim.odometry_rate_hz", o.rate_hz, {1.0, 1000.0}, "odometry readings per second");
+  schema.real("sim.wheel_radius_m", o.radius_m, {0.001, 10.0}, "radius of both wheels");
+  schema.real("sim.wheel_track_m", o.track_m, {0.01, 10.0}, "distance between the wheels");
+  schema.real("sim.wheel_var_m2_per_m", o.var_m2_per_m, kVariance,
+              "encoder error variance per wheel and metre rolled");
+  schema.real("sim.slip_forward_var_m2_per_m", o.slip_forward_var_m2_per_m, kVariance,
+              "forward slip variance per metre driven");
+  schema.real("sim.slip_lateral_var_m2_per_m", o.slip_lateral_var_m2_per_m, kVariance,
+              "sideways slip variance per metre driven");
+  schema.real("sim.slip_turn_var_rad2_per_rad", o.slip_turn_var_rad2_per_rad, kVariance,
+              "heading slip variance per radian turned");
+  schema.real("sim.slip_turn_var_rad2_per_m", o.slip_turn_var_rad2_per_m, kVariance,
+              "heading slip variance per metre driven");
+}
+
+void describe(Schema& schema, SensorOptions& o) {
+  schema.choice("sim.observe", o.observe, {"range-bearing", "range", "bearing"}, "what the sensor measures");
+  schema.real("sim.sensor_rate_hz", o.rate_hz, {0.1, 1000.0}, "scans per second");
+  schema.real("sim.sensor_x_m", o.x_m, {-10.0, 10.0}, "sensor on the robot, forward");
+  schema.real("sim.sensor_y_m", o.y_m, {-10.0, 10.0}, "sensor on the robot, to the left");
+  schema.real("sim.sensor_yaw_deg", o.yaw_deg, {-180.0, 180.0},
+              "sensor on the robot, turned counter-clockwise");
+  schema.real("sim.range_min_m", o.range_min_m, {0.0, 1000.0}, "nearest landmark that is seen");
+  schema.real("sim.range_max_m", o.range_max_m, {0.01, 1000.0}, "farthest landmark that is seen");
+  schema.real("sim.field_of_view_deg", o.field_of_view_deg, {0.1, 360.0},
+              "full angle, half of it on either side");
+  schema.real("sim.range_sigma_m", o.range_sigma_m, {0.0, 10.0}, "range noise");
+  schema.real("sim.range_sigma_ratio", o.range_sigma_ratio, {0.0, 1.0},
+              "further range noise per metre of range");
+  schema.real("sim.bearing_sigma_deg", o.bearing_sigma_deg, {0.0, 90.0}, "bearing noise");
+  schema.real("sim.drop_probability", o.drop_probability, kProbability,
+              "chance that a visible landmark is not reported");
+  schema.real(
+      "sim.false_probability", o.false_probability, kProbability,
+      "chance per scan of a sighting where nothing stands, half of them with the identity of a landmark");
+  schema.real("sim.clutter_probability", o.clutter_probability, kProbability,
+              "chance per reported landmark of a further sighting where nothing stands, without identity");
+  schema.real("sim.misread_probability", o.misread_probability, kProbability,
+              "chance that a sighting bears the identity of another landmark");
+  schema.boolean("sim.identities", o.identities, "sightings say which landmark they are of");
+}
+
+void describe(Schema& schema, RoomOptions& o) {
+  schema.choice("sim.scene", o.scene, {"none", "room", "corridor"}, "what a camera sees; none: no images");
+  schema.real("sim.margin_m", o.margin_m, {0.8, 20.0}, "from the path to the walls");
+  schema.real("sim.room_height_m", o.height_m, {1.0, 10.0}, "from floor to ceiling");
+  schema.integer("sim.blocks", o.blocks, {0, 500}, "pieces of furniture, as far as there is room");
+  schema.integer("sim.walkers", o.walkers, {0, 50}, "people who walk about");
+  schema.real("sim.walker_speed_mps", o.walker_speed_mps, {0.0, 10.0}, "how fast they walk");
+  schema.integer("sim.markers", o.markers, {0, kMarkerPatterns}, "ArUco markers 4x4_50 on the walls");
+  schema.real("sim.marker_size_m", o.marker_size_m, {0.02, 1.0}, "side of their black squares");
+}
+
+void describe(Schema& schema, Distortion& o) {
+  schema.real("sim.camera_k1", o.k1, {-10.0, 10.0}, "radial distortion, plumb bob as in ROS");
+  schema.real("sim.camera_k2", o.k2, {-10.0, 10.0}, "radial distortion, fourth order");
+  schema.real("sim.camera_p1", o.p1, {-1.0, 1.0}, "tangential distortion");
+  schema.real("sim.camera_p2", o.p2, {-1.0, 1.0}, "tangential distortion");
+  schema.real("sim.camera_k3", o.k3, {-10.0, 10.0}, "radial distortion, sixth order");
+}
+
+void describe(Schema& schema, CameraMount& o) {
+  schema.real("sim.camera_x_m", o.x_m, {-10.0, 10.0}, "camera ahead of the robot's origin");
+  schema.real("sim.camera_y_m", o.y_m, {-10.0, 10.0}, "camera left of it");
+  schema.real("sim.camera_z_m", o.z_m, {0.01, 10.0}, "camera above the ground");
+  schema.real("sim.camera_roll_deg", o.roll_deg, {-180.0, 180.0},
+              "turn of the camera about the robot's x axis");
+  schema.real("sim.camera_pitch_deg", o.pitch_deg, {-90.0, 90.0},
+              "... about its y axis, positive looks down");
+  schema.real("sim.camera_yaw_deg", o.yaw_deg, {-180.0, 180.0}, "... about its z axis, positive looks left");
+}
+
+void describe(Schema& schema, FilmOptions& o) {
+  schema.integer("sim.image_width_px", o.width_px, {16, 4096}, "width of the images");
+  schema.integer("sim.image_height_px", o.height_px, {16, 4096}, "height of the images");
+  schema.real("sim.image_rate_hz", o.rate_hz, {0.1, 1000.0}, "images per second");
+  schema.real("sim.camera_field_of_view_deg", o.field_of_view_deg, {5.0, 150.0},
+              "horizontal, without the distortion");
+  describe(schema, o.distortion);
+  describe(schema, o.mount);
+  schema.real("sim.lens_blur_px", o.lens_blur_px, {0.0, 1.0}, "standard deviation of the blur of the lens");
+  schema.real("sim.exposure_ms", o.exposure_ms, {0.0, 100.0}, "open shutter: what moves is smeared");
+  schema.real("sim.noise_grey", o.noise_grey, {0.0, 100.0}, "pixel noise, of 255");
+  schema.real("sim.brightness", o.brightness, {0.0, 100.0}, "factor on the grey of all images");
+  schema.real("sim.brightness_drift_ratio", o.drift_ratio, {0.0, 1.0}, "slow change of it, to either side");
+  schema.real("sim.brightness_drift_period_s", o.drift_period_s, {0.1, 1e6}, "period of that");
+  schema.real("sim.brightness_jump_ratio", o.jump_ratio, {0.0, 1.0}, "sudden change of it, to either side");
+  schema.real("sim.brightness_jump_interval_s", o.jump_interval_s, {0.1, 1e6}, "time between those");
+  schema.real("sim.lens_covered_from_s", o.covered_from_s, {0.0, 1e6},
+              "when something black covers the lens");
+  schema.real("sim.lens_covered_for_s", o.covered_for_s, {0.0, 1e6}, "... and how long");
+  schema.real("sim.image_drop_probability", o.drop_probability, kProbability, "chance that an image is lost");
+  schema.real("sim.vibration_pitch_deg", o.vibration_pitch_deg, {0.0, 10.0},
+              "standard deviation of the mount's nodding");
+  schema.real("sim.vibration_roll_deg", o.vibration_roll_deg, {0.0, 10.0}, "... of its rolling");
+  schema.real("sim.vibration_height_m", o.vibration_height_m, {0.0, 1.0}, "... of its height");
+}
+
+void describe(Schema& schema, TruthOptions& o) {
+  schema.real("sim.truth_rate_hz", o.rate_hz, {0.0, 1000.0},
+              "true poses per second; 0: only where a corner is reached");
+  schema.boolean("sim.truth_heading", o.heading, "true poses state their heading");
+}
+
+SimOptions shaped(Shape shape) {
+  SimOptions options;
+  options.path.shape = shape;
+  return options;
+}
+
+// Every number of the study stands here, so that no default can move it. The wheels are calibrated by
+// tests/sim/simulation_test.cpp, StudyDriftsByOnePointSixMetresPerLap.
+SimOptions study() {
+  return {
+      .path = {.shape = Shape::kSquare,
+               .side_m = 6.0,
+               .laps = 2,
+               .waypoints = 8,
+               .corner_radius_m = 0.0,
+               .speed_mps = 0.3,
+               .turn_rate_max_degps = 45.0},
+      .world = {.landmarks = 24,
+                .spread = Spread::kPath,
+                .area_m = 30.0,
+                .min_offset_m = 1.0,
+                .max_offset_m = 3.0,
+                .separation_m = 0.5},
+      .wheels = {.odometry = OdometryKind::kWheels,
+                 .rate_hz = 50.0,
+                 .radius_m = 0.0975,
+                 .track_m = 0.331,
+                 .var_m2_per_m = 2.9e-4,
+                 .slip_forward_var_m2_per_m = 1e-4,
+                 .slip_lateral_var_m2_per_m = 1e-4,
+                 .slip_turn_var_rad2_per_rad = 1e-3,
+                 .slip_turn_var_rad2_per_m = 1e-4},
+      .sensor = {.observe = Observe::kRangeBearing,
+                 .rate_hz = 15.0,
+                 .x_m = 0.0,
+                 .y_m = 0.0,
+                 .yaw_deg = 0.0,
+                 .range_min_m = 0.336,
+                 .range_max_m = 5.36,
+                 .field_of_view_deg = 49.56,
+                 .range_sigma_m = 0.05,
+                 .range_sigma_ratio = 0.0,
+                 .bearing_sigma_deg = 1.5,
+                 .drop_probability = 0.0,
+                 .false_probability = 0.0,
+                 .clutter_probability = 0.0,
+                 .misread_probability = 0.0,
+                 .identities = true},
+      .truth = {.rate_hz = 10.0, .heading = true},
+  };
+}
+
+/// The robot and camera of the FastSLAM report on a Pioneer 3-DX: velocities with 0.005 m/s and 0.05 rad/s of
+/// noise in every step of 0.1 s, here as variances per metre and radian at its speed and turn rate; the
+/// limits of its camera. The camera's noise is that of the study: the report's 0.5 m^2 and 0.5 rad^2 are a
+/// tuning of its filter (configs/fastslam-report.yaml), not what the camera does.
+SimOptions report(Shape shape) {
+  constexpr double kStep_s = 0.1;
+  constexpr double kSpeedVariance = 0.005 * 0.005;
+  constexpr double kTurnRateVariance = 0.05 * 0.05;
+  SimOptions options = study();
+  options.path.shape = shape;
+  options.path.laps = 1;
+  options.wheels.odometry = OdometryKind::kVelocity;
+  options.wheels.rate_hz = 1.0 / kStep_s;
+  options.wheels.var_m2_per_m = 0.0;
+  options.wheels.slip_forward_var_m2_per_m = kSpeedVariance * kStep_s / options.path.speed_mps;
+  options.wheels.slip_lateral_var_m2_per_m = 0.0;
+  options.wheels.slip_turn_var_rad2_per_m = kTurnRateVariance * kStep_s / options.path.speed_mps;
+  options.wheels.slip_turn_var_rad2_per_rad =
+      kTurnRateVariance * kStep_s / to_radians(options.path.turn_rate_max_degps);
+  return options;
+}
+
+// The robot of the study, faster, among trunks that all look alike.
+SimOptions forest() {
+  SimOptions options = study();
+  options.path.shape = Shape::kRandom;
+  options.path.side_m = 24.0;
+  options.path.waypoints = 12;
+  options.path.corner_radius_m = 1.0;
+  options.path.speed_mps = 1.0;
+  options.world = {.landmarks = 100,
+                   .spread = Spread::kArea,
+                   .area_m = 30.0,
+                   .min_offset_m = 0.5,
+                   .max_offset_m = 3.0,
+                   .separation_m = 1.0};
+  options.sensor.rate_hz = 5.0;
+  options.sensor.range_max_m = 10.0;
+  options.sensor.field_of_view_deg = 180.0;
+  options.sensor.range_sigma_m = 0.1;
+  options.sensor.bearing_sigma_deg = 1.0;
+  options.sensor.drop_probability = 0.05;
+  options.sensor.clutter_probability = 0.05;
+  options.sensor.identities = false;
+  return options;
+}
+
+/// A camera at 30 images/s on wheels whose encoders are read as often. They are calibrated like those of the
+/// study (RoomDriftsByOnePointSixMetresPerLap), for a lap at 0.5 m/s whose corners are driven with a radius
+/// of 0.5 m.
+SimOptions filmed(SceneKind scene) {
+  SimOptions options = study();
+  options.path.laps = 1;
+  options.path.corner_radius_m = 0.5;
+  options.path.speed_mps = 0.5;
+  options.world.landmarks = 0;
+  options.wheels.rate_hz = 30.0;
+  options.wheels.var_m2_per_m = 3.5e-4;
+  options.truth.rate_hz = 30.0;
+  options.room = {
+      .scene = scene, .margin_m = 2.0, .height_m = 2.5, .blocks = 24, .walkers = 1, .walker_speed_mps = 1.0};
+  options.film = FilmOptions{};
+  return options;
+}
+
+SimOptions corridor() {
+  SimOptions options = filmed(SceneKind::kCorridor);
+  options.path.shape = Shape::kLoop;
+  options.path.side_m = 24.0;
+  options.room.margin_m = 1.0;
+  options.room.blocks = 40;
+  return options;
+}
+
+/// Markers instead of furniture. The lap leaves 1.25 m to walls of 6 m.
+SimOptions marker_room() {
+  SimOptions options = filmed(SceneKind::kRoom);
+  options.path.side_m = 3.5;
+  options.path.laps = 2;
+  options.truth.rate_hz = 15.0;
+  options.room.margin_m = 1.25;
+  options.room.blocks = 0;
+  options.room.markers = 12;
+  options.room.marker_size_m = 0.2;
+  options.film.width_px = 640;
+  options.film.height_px = 480;
+  options.film.rate_hz = 15.0;
+  return options;
+}
+
+const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
+  static const std::vector<std::pair<std::string, SimOptions>> all{
+      {"square", shaped(Shape::kSquare)},
+      {"l-shape", shaped(Shape::kLShape)},
+      {"figure-eight", shaped(Shape::kFigureEight)},
+      {"random", shaped(Shape::kRandom)},
+      {"study", study()},
+      {"forest", forest()},
+      {"room", filmed(SceneKind::kRoom)},
+      {"corridor", corridor()},
+      {"marker-room", marker_room()},
+      {"report-square", report(Shape::kSquare)},
+      {"report-l-shape", report(Shape::kLShape)},
+  };
+  return all;
+}
+
+// The limits are those of the keys, so each value is set to itself.
+Result<void> validate_limits(SimOptions options) {
+  Schema schema;
+  describe(schema, options);
+  for (const std::string& key : schema.keys()) {
+    if (auto set = schema.set(key, schema.value(key), "simulation"); !set) return set;
+  }
+  return {};
+}
+
+// Light must reach the corners, half a pixel beyond the last.
+Result<void> validate_lens(const FilmOptions& film) {
+  const Camera camera(camera_of(film));
+  for (const double u : {-1.0, static_cast<double>(film.width_px)})
+    for (const double v : {-1.0, static_cast<double>(film.height_px)})
+      if (!camera.ray({u, v}))
+        return Error{
+            "simulation: with sim.camera_k1, k2, p1, p2 and k3 no light reaches the corners of the image; "
+            "bring them nearer to 0 or lower sim.camera_field_of_view_deg"};
+  return {};
+}
+
+}  // namespace
+
+void describe(Schema& schema, SimOptions& options) {
+  describe(schema, options.path);
+  describe(schema, options.world);
+  describe(schema, options.wheels);
+  describe(schema, options.sensor);
+  describe(schema, options.room);
+  describe(schema, options.film);
+  describe(schema, options.truth);
+}
+
+CameraOptions camera_of(const FilmOptions& options) {
+  CameraOptions camera{.width_px = options.width_px, .height_px = options.height_px};
+  camera.fu_px = 0.5 * options.width_px / std::tan(0.5 * to_radians(options.field_of_view_deg));
+  camera.fv_px = camera.fu_px;
+  camera.cu_px = 0.5 * (options.width_px - 1);
+  camera.cv_px = 0.5 * (options.height_px - 1);
+  camera.distortion = options.distortion;
+  camera.mount = options.mount;
+  return camera;
+}
+
+Result<void> validate(const SimOptions& options) {
+  if (auto limits = validate_limits(options); !limits) return limits;
+  const auto& [path, world, wheels, sensor, room, film, truth] = options;
+  if (auto lens = validate_lens(film); !lens) return lens;
+  if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
+    return Error{"simulation: sim.scene is corridor, which leads round a sim.path of square or loop only"};
+  if (room.scene != SceneKind::kNone && room.markers > 0 && world.landmarks > 0)
+    return Error{"simulation: sim.markers and sim.landmarks would share numbers; set one of them to 0"};
+  if (world.spread == Spread::kPath && world.max_offset_m < world.min_offset_m + 0.1) {
+    return Error{fmt::format(
+        "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",
+        world.max_offset_m, world.min_offset_m + 0.1)};
+  }
+  if (sensor.range_max_m <= sensor.range_min_m) {
+    return Error{
+        fmt::format("simulation: sim.range_max_m is {}; it must be above sim.range_min_m, which is {}",
+                    sensor.range_max_m, sensor.range_min_m)};
+  }
+  return {};
+}
+
+Result<SimOptions> scenario(std::string_view name) {
+  for (const auto& [known, options] : scenarios()) {
+    if (known == name) return options;
+  }
+  const std::string near = nearest_name(name, scenario_names());
+  return Error{fmt::format("unknown scenario '{}'{}; there are {}", name,
+                           near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
+                           fmt::join(scenario_names(), ", "))};
+}
+
+const std::vector<std::string>& scenario_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, options] : scenarios()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace waymark::sim

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "waymark/core/result.hpp"
+#include "waymark/models/camera.hpp"
+
+#include "workbench/config/schema.hpp"
+
+namespace waymark::sim {
+
+enum class Shape : std::uint8_t { kSquare, kLShape, kFigureEight, kRandom, kLoop };
+enum class OdometryKind : std::uint8_t { kWheels, kVelocity, kPose };
+enum class Spread : std::uint8_t { kPath, kArea };
+enum class Observe : std::uint8_t { kRangeBearing, kRange, kBearing };
+enum class SceneKind : std::uint8_t { kNone, kRoom, kCorridor };
+
+/// The closed path that the robot is told to drive.
+struct PathOptions {
+  Shape shape = Shape::kSquare;
+  double side_m = 6.0;
+  int laps = 1;
+  int waypoints = 8;
+  double corner_radius_m = 0.0;
+  double speed_mps = 0.3;
+  double turn_rate_max_degps = 45.0;
+};
+
+/// Where landmarks stand.
+struct WorldOptions {
+  int landmarks = 24;
+  Spread spread = Spread::kPath;
+  double area_m = 30.0;
+  double min_offset_m = 1.0;
+  double max_offset_m = 3.0;
+  double separation_m = 0.5;
+};
+
+/// A differential drive: what the encoders report and how far the robot slips from what its wheels did.
+/// The variances are those of the motion model in the filters: encoder errors per wheel and metre rolled,
+/// slip in the robot frame per metre driven and per radian turned.
+struct WheelOptions {
+  OdometryKind odometry = OdometryKind::kWheels;
+  double rate_hz = 50.0;
+  double radius_m = 0.0975;
+  double track_m = 0.331;
+  double var_m2_per_m = 2e-5;
+  double slip_forward_var_m2_per_m = 1e-5;
+  double slip_lateral_var_m2_per_m = 1e-5;
+  double slip_turn_var_rad2_per_rad = 1e-4;
+  double slip_turn_var_rad2_per_m = 1e-5;
+};
+
+/// What sees landmarks, and how badly.
+struct SensorOptions {
+  Observe observe = Observe::kRangeBearing;
+  double rate_hz = 15.0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double yaw_deg = 0.0;
+  double range_min_m = 0.336;
+  double range_max_m = 5.36;
+  double field_of_view_deg = 49.56;
+  double range_sigma_m = 0.05;
+  double range_sigma_ratio = 0.0;
+  double bearing_sigma_deg = 1.5;
+  double drop_probability = 0.0;
+  double false_probability = 0.0;
+  double clutter_probability = 0.0;
+  double misread_probability = 0.0;
+  bool identities = true;
+};
+
+/// What there is to be seen by a camera: a hall around the path, or a corridor along it.
+struct RoomOptions {
+  SceneKind scene = SceneKind::kNone;
+  double margin_m = 2.0;
+  double height_m = 2.5;
+  int blocks = 24;
+  int walkers = 1;
+  double walker_speed_mps = 1.0;
+  int markers = 0;
+  double marker_size_m = 0.2;
+};
+
+/// A camera, and how badly it sees.
+struct FilmOptions {
+  int width_px = 320;
+  int height_px = 240;
+  double rate_hz = 30.0;
+  double field_of_view_deg = 60.0;
+  Distortion distortion{.k1 = -0.12, .k2 = 0.03, .p1 = 0.0005, .p2 = -0.0003};
+  CameraMount mount{.x_m = 0.1, .z_m = 0.5};
+  double lens_blur_px = 0.5;
+  double exposure_ms = 5.0;
+  double noise_grey = 2.0;
+  double brightness = 1.0;
+  double drift_ratio = 0.1;
+  double drift_period_s = 20.0;
+  double jump_ratio = 0.25;
+  double jump_interval_s = 10.0;
+  double covered_from_s = 0.0;
+  double covered_for_s = 0.0;
+  double drop_probability = 0.0;
+  double vibration_pitch_deg = 0.05;
+  double vibration_roll_deg = 0.05;
+  double vibration_height_m = 0.001;
+};
+
+/// How much of the truth the log holds.
+struct TruthOptions {
+  double rate_hz = 10.0;
+  bool heading = true;
+};
+
+/// A simulated log, complete but for its seed.
+struct SimOptions {
+  PathOptions path;
+  WorldOptions world;
+  WheelOptions wheels;
+  SensorOptions sensor;
+  RoomOptions room;
+  FilmOptions film;
+  TruthOptions truth;
+};
+
+/// Adds every option as a key under `sim.`.
+void describe(Schema& schema, SimOptions& options);
+
+/// The camera as a filter is to be told of it.
+[[nodiscard]] CameraOptions camera_of(const FilmOptions& options);
+
+/// Every value within its limits and all of them possible together; otherwise names the key and what would be
+/// right.
+Result<void> validate(const SimOptions& options);
+
+/// The options of a named world; an unknown name is an error that names the nearest.
+///
+/// `study` serves every comparison: two laps of the 6 m square at 0.3 m/s, 24 landmarks 1 to 3 m off the
+/// path, a sensor of 0.336 to 5.36 m and 49.56 degrees at 15 frames/s with 0.05 m and 1.5 degrees of noise,
+/// and wheels by which dead reckoning ends a lap 1.6 m from the truth (median over seeds).
+///
+/// `forest` is for filters that are not told which landmark they see: 100 trunks all over 30 x 30 m, at least
+/// 1 m apart and 0.5 m from the path, two laps of a random path at 1 m/s with the wheels of the study, a
+/// sensor of 10 m and 180 degrees at 5 scans/s with 0.1 m and 1 degree of noise, one in twenty sightings
+/// missing and one in twenty accompanied by a false one, no identities.
+///
+/// `room` and `corridor` are to be seen by a camera: the 6 m square in a room of 10 x 10 m, and a loop of 24
+/// x 8 m in a corridor 2 m wide, at 0.5 m/s.
+///
+/// `marker-room` is a room of 6 x 6 m with 12 ArUco markers (4x4_50, 0.2 m) on its walls, seen by a camera of
+/// 640 x 480 pixels and 60 degrees at 15 images/s during two laps.
+///
+/// `report-square` and `report-l-shape` are the worlds of the FastSLAM report on a Pioneer 3-DX.
+Result<SimOptions> scenario(std::string_view name);
+[[nodiscard]] const std::vector<std::string>& scenario_names();
+
+}  // namespace waymark::sim
