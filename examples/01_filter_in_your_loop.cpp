@@ -10,14 +10,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include <waymark/ekf/ekf_slam.hpp>
-#include <waymark/models/observation_models.hpp>
+#include <waymark/waymark.hpp>
 
 int main() {
   using namespace waymark;
 
-  const Pose2 T_robot_sensor{0.1, 0.0, 0.0};  // the sensor looks ahead, 10 cm in front of the axle
-  EkfSlam filter(EkfOptions{.capacity = 10}, GateOptions{}, T_robot_sensor);
+  LandmarkSensor sensor;  // looks ahead, 10 cm in front of the axle
+  sensor.x_m = 0.1;
+  EkfSlam filter({.capacity = 10}, sensor);
 
   const Eigen::Vector2d landmarks[] = {{0.0, 2.0}, {3.0, 4.0}};
   const Eigen::Matrix3d motion_noise = Eigen::Vector3d(1e-4, 1e-5, 4e-4).asDiagonal();
@@ -33,7 +33,8 @@ int main() {
 
     Observations scan;
     for (int number = 0; number < 2; ++number) {
-      const auto z = RangeBearingModel::linearize(T_world_robot, T_robot_sensor, landmarks[number]).predicted;
+      const auto z =
+          RangeBearingModel::linearize(T_world_robot, sensor.T_robot_sensor(), landmarks[number]).predicted;
       scan.push_back(
           {LandmarkId{LandmarkId::Family::kMarker, number}, RangeBearing{z[0], z[1]}, sighting_noise});
     }

@@ -42,7 +42,7 @@ class BadInput : public testing::TestWithParam<ekf::Consistency> {
   }
 
   CircleWorld world_{11};
-  EkfSlam filter_{{GetParam(), 8}, {}, world_.mount()};
+  EkfSlam filter_{{GetParam(), 8}, world_.sensor()};
 };
 
 TEST_P(BadInput, TwoSightingsOfOneLandmarkInOneScan) {

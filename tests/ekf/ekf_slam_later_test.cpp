@@ -45,7 +45,7 @@ TEST_P(EkfSlamOfPart, FollowsTheTruthWithinItsOwnUncertainty) {
   constexpr int kRuns = 16;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
-    EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, world.mount());
+    EkfSlam filter({ekf::Consistency::kInvariant, 100}, world.sensor());
     drive(filter, world, 200, GetParam());
     const auto pose = filter.pose();
     nees += *mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance) / kRuns;
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EkfSlamOfPart, testing::Values(Part::kRange, Part
 class EkfSlamOfParts : public testing::TestWithParam<std::tuple<Part, ekf::Consistency>> {
  protected:
   static EkfSlam make(const CircleWorld& world, int capacity = 100) {
-    return EkfSlam({std::get<1>(GetParam()), capacity}, {}, world.mount());
+    return EkfSlam({std::get<1>(GetParam()), capacity}, world.sensor());
   }
   static Part part() { return std::get<0>(GetParam()); }
 };

@@ -20,7 +20,7 @@ namespace {
 using test::CircleWorld;
 
 EkfSlam make(const CircleWorld& world, int capacity = 20) {
-  return EkfSlam({ekf::Consistency::kInvariant, capacity}, {}, world.mount());
+  return EkfSlam({ekf::Consistency::kInvariant, capacity}, world.sensor());
 }
 
 void drive(EkfSlam& filter, CircleWorld& world, int steps) {
@@ -82,7 +82,7 @@ double plain_log_density(const EkfSlam& filter, const Pose2& mount, int landmark
 
 TEST(EkfSlam, TellsHowLikelyASightingWas) {
   CircleWorld world(4);
-  EkfSlam filter({ekf::Consistency::kStandard, 20}, {}, world.mount());
+  EkfSlam filter({ekf::Consistency::kStandard, 20}, world.sensor());
   drive(filter, world, 30);
   for (const int sighted : {0, 3}) {  // the landmark that it says it is of, and another: gated
     Observation seen = world.sight(sighted);
@@ -98,7 +98,7 @@ TEST(EkfSlam, TellsHowLikelyASightingWas) {
 
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
-  EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, {}, world.mount());
+  EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, world.sensor());
   drive(filter, world, 10);
   std::vector<Observation> scan(6, world.sight(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
@@ -117,7 +117,7 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
 }
 
 TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
-  EkfSlam filter({ekf::Consistency::kInvariant, 100}, {}, Pose2{});
+  EkfSlam filter({ekf::Consistency::kInvariant, 100}, {});
   std::vector<Observation> scan;
   for (int i = 0; i < 80; ++i)
     scan.push_back({LandmarkId{LandmarkId::Family::kMarker, i}, RangeBearing{2.0 + 0.1 * i, 0.05 * i},
@@ -130,7 +130,7 @@ TEST(EkfSlam, AScanLargerThanABlockIsUsedWhole) {
 TEST(EkfSlam, AFullMapGivesItsLeastUsefulLandmarkForANewOne) {
   for (const auto evict : {ekf::Eviction::kInformation, ekf::Eviction::kArticle}) {
     CircleWorld world(6);
-    EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, {}, world.mount());
+    EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, world.sensor());
     drive(filter, world, 20);
     Observation unseen = world.sight(3);
     unseen.id->number = 99;
@@ -159,11 +159,10 @@ TEST(EkfSlam, AScanOfMoreNewLandmarksThanFitKeepsTheFirstOfThem) {
 }
 
 TEST(EkfSlam, CompressedItEstimatesTheSame) {
-  EkfSlam whole({.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kNever}, {},
-                Pose2{});
+  EkfSlam whole({.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kNever}, {});
   EkfSlam compressed(
       {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .region = 48},
-      {}, Pose2{});
+      {});
   const auto sight = [](int landmark, double range_m) {
     return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
                        RangeBearing{range_m, 0.04 * landmark},
@@ -221,8 +220,9 @@ class LargeInnovation : public testing::Test {
  protected:
   static constexpr int kLandmarks = 3;
 
-  [[nodiscard]] static Pose2 surprised(const EkfOptions& options) {
-    EkfSlam filter(options, {1.0}, {});
+  [[nodiscard]] static Pose2 surprised(EkfOptions options) {
+    options.gate = {1.0};
+    EkfSlam filter(options, {});
     std::vector<Observation> first;
     for (int i = 0; i < kLandmarks; ++i) first.push_back(sight(i, {}, 1e-4));
     filter.correct(first);
@@ -281,7 +281,7 @@ TEST(EkfSlam, IteratedUpdatesSeeNoHeadingThatNobodySaw) {
   // Nothing but the start says which way the world lies: that doubt must stay.
   constexpr double kStartVariance = 0.01;
   RandomStream random(21, StreamPurpose::kWorld);
-  EkfSlam filter({.iterations = 20}, {1.0}, {});
+  EkfSlam filter({.iterations = 20, .gate = {1.0}}, {});
   filter.predict({{}, Eigen::Vector3d(0.0, 0.0, kStartVariance).asDiagonal()});
   for (int step = 0; step < 300; ++step) {
     filter.predict({{0.5, 0.0, 0.1}, Eigen::Vector3d(0.04, 0.04, 0.04).asDiagonal()});
@@ -301,7 +301,7 @@ TEST(EkfSlam, IteratedUpdatesSeeNoHeadingThatNobodySaw) {
 TEST(EkfSlam, HeavyTailsTakeAnOutlierForWhatItIs) {
   const auto shift = [](ekf::Likelihood likelihood) {
     CircleWorld world(6);
-    EkfSlam filter({.likelihood = likelihood}, {1.0}, world.mount());
+    EkfSlam filter({.likelihood = likelihood, .gate = {1.0}}, world.sensor());
     drive(filter, world, 100);
     auto scan = world.look();
     const Pose2 before = filter.pose().T_world_robot;
@@ -331,7 +331,7 @@ TEST(EkfSlam, KnowsRepeatedSightingsWithALastingErrorForWhatTheyAre) {
   // unsure as after one, while the innovations show how alike they are.
   const SensorErrors errors{.lasting_range_sigma_ratio = 0.02, .lasting_bearing_sigma_deg = 1.0};
   RandomStream random(11, StreamPurpose::kWorld);
-  EkfSlam filter({}, {}, {}, 1, errors);
+  EkfSlam filter({}, {.errors = errors});
   double nis = 0.0;
   constexpr int kSightings = 100;
   Observation observation{LandmarkId{LandmarkId::Family::kMarker, 1}, RangeBearing{}, {}};
@@ -351,8 +351,8 @@ TEST(EkfSlam, GoesOnFromASavedMapAsIfItHadNeverStopped) {
   EkfSlam filter = make(world);
   drive(filter, world, 60);
   const MapState saved = filter.save();
-  EkfSlam again({.capacity = 20, .loaded = 8}, {}, world.mount());
-  again.load(saved);
+  EkfSlam again({.capacity = 20, .loaded = 8}, world.sensor());
+  ASSERT_TRUE(again.load(saved));
   EXPECT_EQ(again.save().landmarks, saved.landmarks);
   EXPECT_EQ(again.save().covariance, saved.covariance);
   EXPECT_EQ(again.save().observations, saved.observations);
@@ -376,7 +376,7 @@ TEST(EkfSlam, ALoadedMapIsTheFirstRegionHoweverSmallRegionsAre) {
   map.landmarks = Eigen::VectorXd::LinSpaced(2 * kCount, -30.0, 30.0);
   map.covariance = 0.01 * Eigen::MatrixXd::Identity(3 + 2 * kCount, 3 + 2 * kCount);
   map.covariance.array() += 0.002;
-  EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .region = 48, .loaded = kCount}, {}, {});
+  EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .region = 48, .loaded = kCount}, {});
   filter.load(map);
   EXPECT_EQ(filter.save().covariance, map.covariance);
   const Observation unknown{LandmarkId{LandmarkId::Family::kMarker, 999}, RangeBearing{2.0, 0.1},
@@ -392,7 +392,7 @@ TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
   EkfSlam mapping = make(world);
   drive(mapping, world, 60);
   const MapState saved = mapping.save();
-  EkfSlam filter({.consistency = ekf::Consistency::kStandard, .capacity = 8, .loaded = 8}, {}, world.mount());
+  EkfSlam filter({.consistency = ekf::Consistency::kStandard, .capacity = 8, .loaded = 8}, world.sensor());
   filter.load(saved);
   filter.hold_landmarks();
   drive(filter, world, 100);
@@ -404,6 +404,37 @@ TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
   EXPECT_EQ(after.covariance.bottomRightCorner(16, 16), saved.covariance.bottomRightCorner(16, 16));
   EXPECT_TRUE(is_covariance(after.covariance));
   EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 0.3);
+}
+
+TEST(EkfSlam, ObservationsWithoutCovarianceHaveTheNoiseOfTheSensor) {
+  CircleWorld world(21);
+  LandmarkSensor sensor = world.sensor();
+  sensor.range_sigma_m = 0.05;
+  sensor.bearing_sigma_deg = to_degrees(0.02);
+  EkfSlam told({.capacity = 20}, sensor), silent({.capacity = 20}, sensor);
+  for (int i = 0; i < 30; ++i) {
+    const Motion motion = world.move();
+    std::vector<Observation> scan = world.look();
+    for (EkfSlam* each : {&told, &silent}) each->predict(motion);
+    for (Observation& each : scan) each.covariance = noise_covariance(sensor, each.value);
+    told.correct(scan);
+    for (Observation& each : scan) each.covariance.reset();
+    EXPECT_EQ(silent.correct(scan).count(Outcome::kUnusable), 0);
+  }
+  EXPECT_EQ(silent.pose().T_world_robot, told.pose().T_world_robot);
+  EXPECT_EQ(silent.pose().covariance, told.pose().covariance);
+}
+
+TEST(EkfSlam, AMapThatDoesNotFitChangesNothing) {
+  CircleWorld world(22);
+  EkfSlam filter = make(world);
+  drive(filter, world, 20);
+  const MapState saved = filter.save();
+  EkfSlam small({.capacity = 3}, world.sensor());
+  ASSERT_FALSE(small.load(saved));
+  EXPECT_NE(small.load(saved).error().message.find("8 landmarks are more than"), std::string::npos);
+  EXPECT_TRUE(small.snapshot().landmarks.empty());
+  EXPECT_FALSE(filter.load(saved)) << "it has a map already";
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ using test::drive;
 using test::nearest_m;
 using test::unnamed;
 
-EkfSlam make_filter(const CircleWorld& world, const EkfOptions& options = {.capacity = 40},
-                    bool jointly = true) {
-  return {options, {}, world.mount(), 1, {}, ekf::UnnamedOptions{jointly, {}, world.sensor()}};
+EkfSlam make_filter(const CircleWorld& world, EkfOptions options = {.capacity = 40}, bool jointly = true) {
+  options.unknown = UnknownAssociation{jointly, {}};
+  return {options, world.sensor()};
 }
 
 template <bool jointly>
@@ -44,14 +44,14 @@ namespace {
 
 TEST(EkfSlamUnnamed, WithoutAssociationNothingUnnamedIsUsed) {
   CircleWorld world(1);
-  EkfSlam filter({.capacity = 40}, {}, world.mount());
+  EkfSlam filter({.capacity = 40}, world.sensor());
   EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kUnidentified), 8);
 }
 
 TEST(EkfSlamUnnamed, WithoutClutterItIsTheFilterThatKnows) {
   CircleWorld told(2);
   CircleWorld untold(2);
-  EkfSlam knows({.capacity = 40}, {}, told.mount());
+  EkfSlam knows({.capacity = 40}, told.sensor());
   EkfSlam guesses = make_filter(untold);
   for (int i = 0; i < 100; ++i) {
     knows.predict(told.move());

@@ -112,13 +112,15 @@ TEST(LastingErrors, OfMoreLandmarksThanAreRememberedBecomeNoise) {
 TEST(LastingErrors, ScaleAndOffsetOfRangesAndOffsetOfBearingsAreLearntWithinWhatItSaysOfThem) {
   constexpr double kScale = 0.015, kOffset_m = 0.05;
   const double bearing_rad = to_radians(0.8);
-  const SensorErrors sensor{
+  const SensorErrors errors{
       .shared_range_sigma_ratio = 0.1, .shared_range_sigma_m = 0.1, .shared_bearing_sigma_deg = 1.0};
   constexpr int kRuns = 30;
   Eigen::Vector3d d2 = Eigen::Vector3d::Zero();
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
-    EkfSlam filter({.capacity = 20}, {}, world.mount(), 1, sensor);
+    LandmarkSensor sensor = world.sensor();
+    sensor.errors = errors;
+    EkfSlam filter({.capacity = 20}, sensor);
     for (int i = 0; i < 300; ++i) {
       filter.predict(world.move());
       std::vector<Observation> scan = world.look();

@@ -11,7 +11,7 @@ namespace {
 using test::CircleWorld;
 
 MapState map_of(CircleWorld& world) {
-  EkfSlam filter({.capacity = 20}, {}, world.mount());
+  EkfSlam filter({.capacity = 20}, world.sensor());
   for (int i = 0; i < 100; ++i) {
     filter.predict(world.move());
     filter.correct(world.look());
@@ -31,7 +31,8 @@ void drive_round(Filter& filter, CircleWorld& world, int steps) {
 TEST(Localizer, FindsItselfWithinTheFirstSightingsAndStaysThere) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
-    Localizer filter(map_of(world), {}, {}, world.mount());
+    const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
+    Localizer& filter = *localizer;
     drive_round(filter, world, 2);
     EXPECT_FALSE(filter.knows_pose());
     drive_round(filter, world, 18);
@@ -44,7 +45,8 @@ TEST(Localizer, FindsItselfWithinTheFirstSightingsAndStaysThere) {
 
 TEST(Localizer, KnowsHowSureItIs) {
   const double nees = test::mean_pose_nees([](CircleWorld& world) {
-    Localizer filter(map_of(world), {}, {}, world.mount());
+    const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
+    Localizer& filter = *localizer;
     drive_round(filter, world, 60);
     return filter.pose();
   });
@@ -55,7 +57,8 @@ TEST(Localizer, KnowsHowSureItIs) {
 TEST(Localizer, LeavesTheMapAlone) {
   CircleWorld world(4);
   const MapState map = map_of(world);
-  Localizer filter(map, {}, {}, world.mount());
+  const auto localizer = *Localizer::make(map, {}, world.sensor());
+  Localizer& filter = *localizer;
   drive_round(filter, world, 60);
   EXPECT_EQ(filter.save().landmarks, map.landmarks);
   EXPECT_EQ(filter.save().covariance.bottomRightCorner(16, 16), map.covariance.bottomRightCorner(16, 16));
@@ -71,7 +74,8 @@ TEST(Localizer, SaysThatTheMapIsOfAnotherPlace) {
   int early = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
-    Localizer filter(shuffled(map_of(world), seed), {}, {}, world.mount());
+    const auto localizer = *Localizer::make(shuffled(map_of(world), seed), {}, world.sensor());
+    Localizer& filter = *localizer;
     drive_round(filter, world, 11);
     early += filter.refusal().has_value();
     drive_round(filter, world, 9);
@@ -85,7 +89,8 @@ TEST(Localizer, SaysThatTheMapIsOfAnotherPlace) {
 TEST(Localizer, TellsAnotherPlaceByTwoLandmarksWhenItHasDrivenForLong) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
-    Localizer filter(shuffled(map_of(world), seed), {}, {}, world.mount());
+    const auto localizer = *Localizer::make(shuffled(map_of(world), seed), {}, world.sensor());
+    Localizer& filter = *localizer;
     for (int i = 0; i < 100 && !filter.refusal(); ++i) {
       Motion motion = world.move();
       motion.duration_s = 0.1;
@@ -101,7 +106,8 @@ TEST(Localizer, TellsAnotherPlaceByTwoLandmarksWhenItHasDrivenForLong) {
 TEST(Localizer, AMisreadNumberIsNoOtherPlace) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CircleWorld world(seed);
-    Localizer filter(map_of(world), {}, {}, world.mount());
+    const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
+    Localizer& filter = *localizer;
     Observation misread = world.sight(1);
     misread.id->number = 5;
     filter.correct({&misread, 1});
@@ -114,7 +120,8 @@ TEST(Localizer, SaysThatTheMapHasNoneOfTheLandmarks) {
   CircleWorld world(6);
   MapState map = map_of(world);
   for (LandmarkId& id : map.ids) id.number += 100;
-  Localizer filter(map, {}, {}, world.mount());
+  const auto localizer = *Localizer::make(map, {}, world.sensor());
+  Localizer& filter = *localizer;
   drive_round(filter, world, 20);
   ASSERT_TRUE(filter.refusal());
   EXPECT_THAT(filter.refusal()->message,
@@ -123,7 +130,8 @@ TEST(Localizer, SaysThatTheMapHasNoneOfTheLandmarks) {
 
 TEST(Localizer, WaitsWhileThereIsOnlyOneLandmarkToSee) {
   CircleWorld world(7);
-  Localizer filter(map_of(world), {}, {}, world.mount());
+  const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
+  Localizer& filter = *localizer;
   for (int i = 0; i < 100; ++i) {
     filter.predict(world.move());
     const Observation seen = world.sight(2);
@@ -137,8 +145,8 @@ TEST(Localizer, RefusesToGuessWhereEveryEighthOfATurnLooksAlike) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     CircleWorld world(seed);
     MapState map = map_of(world);
-    const ekf::UnnamedOptions unnamed{true, {}, world.sensor()};
-    Localizer filter(map, {}, {}, world.mount(), 1, {}, unnamed);
+    const auto localizer = *Localizer::make(map, {.unknown = UnknownAssociation{}}, world.sensor());
+    Localizer& filter = *localizer;
     for (int i = 0; i < 3; ++i) {
       filter.predict(world.move());
       auto scan = world.look();

@@ -39,7 +39,7 @@ TEST(OdometryStates, LearnsAllThreeErrorsWithinWhatItSaysOfThem) {
   constexpr int kRuns = 30;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
-    EkfSlam filter(calibrating(), {}, world.mount());
+    EkfSlam filter(calibrating(), world.sensor());
     for (int i = 0; i < 300; ++i) {
       filter.predict(reported(world.move(), errors, 0.1));
       filter.correct(world.look());
@@ -59,7 +59,7 @@ TEST(OdometryStates, LearnsAllThreeErrorsWithinWhatItSaysOfThem) {
 
 TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
   CircleWorld world(1);
-  EkfSlam filter(calibrating(), {}, world.mount());
+  EkfSlam filter(calibrating(), world.sensor());
   for (int i = 0; i < 20; ++i) {
     filter.predict({});
     filter.correct(world.look());
@@ -75,7 +75,7 @@ TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
 
 TEST(OdometryStates, AreOffUnlessAskedFor) {
   CircleWorld world(1);
-  EXPECT_FALSE(EkfSlam({}, {}, world.mount()).calibration());
+  EXPECT_FALSE(EkfSlam({}, world.sensor()).calibration());
 }
 
 /// The covariance after a motion that depends on lasting errors is F P F^T + G Q G^T of the whole state, by

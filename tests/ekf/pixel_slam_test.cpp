@@ -31,9 +31,9 @@ PixelSlamOptions with_perfect_pixels(PixelSlamOptions options) {
 
 /// A filter in a room of points, and what a front end would do between the two.
 struct Drive {
-  explicit Drive(std::uint64_t seed, const EkfOptions& ekf = {}, const PixelSlamOptions& options = {},
+  explicit Drive(std::uint64_t seed, const PixelSlamOptions& options = {},
                  const PointRoom::Options& kind = {})
-      : room(seed, kind), start(room.truth()), filter(ekf, with_perfect_pixels(options), room.camera()) {}
+      : room(seed, kind), start(room.truth()), filter(with_perfect_pixels(options), room.camera()) {}
 
   void step() {
     filter.predict(room.move());
@@ -125,7 +125,7 @@ TEST(PixelSlam, GoesOnFromASavedMap) {
     drive.run(kLap / 3);
     const MapState saved = drive.filter.save();
     ASSERT_GT(saved.ids.size(), 20U);
-    PixelSlam again({}, with_perfect_pixels({}), drive.room.camera());
+    PixelSlam again(with_perfect_pixels({}), drive.room.camera());
     again.load(with_views_from(saved, saved.T_world_robot));
     const MapState loaded = again.save();
     EXPECT_EQ(loaded.ids, saved.ids);
@@ -160,11 +160,13 @@ TEST(PixelSlam, WithTheTextbookUpdateItIsTheArticlesFilter) {
   PixelSlamOptions options;
   options.init = ekf::Initialization::kArticle;
   options.capacity = 30;
+  options.consistency = ekf::Consistency::kStandard;
+  PixelSlamOptions slow = options;
+  slow.update = UpdateMethod::kTextbook;
   double fast_error_m = 0.0, textbook_error_m = 0.0, difference_m = 0.0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    Drive fast(seed, {.consistency = ekf::Consistency::kStandard}, options);
-    Drive textbook(seed, {.consistency = ekf::Consistency::kStandard, .update = UpdateMethod::kTextbook},
-                   options);
+    Drive fast(seed, options);
+    Drive textbook(seed, slow);
     for (Drive* each : {&fast, &textbook}) {
       each->run(15);
       EXPECT_GT(each->count(Outcome::kMatched), 30);
@@ -183,7 +185,7 @@ TEST(PixelSlam, RaysFromTheFirstSightOnSayTheSame) {
   PixelSlamOptions options;
   options.init = ekf::Initialization::kInverseDepth;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    Drive drive(seed, {}, options);
+    Drive drive(seed, options);
     drive.step();
     EXPECT_EQ(drive.filter.candidates(), 0);
     EXPECT_EQ(drive.filter.map().features().size(), 3U);
@@ -200,7 +202,7 @@ TEST(PixelSlam, PointsThatMoveAreRefusedAndHardlyBendAnything) {
   std::vector<double> nees;
   constexpr int kLaps = 6;
   for (std::uint64_t seed = 0; seed < kLaps; ++seed) {
-    Drive drive(seed, {}, {}, {.moving = 0.2});
+    Drive drive(seed, {}, {.moving = 0.2});
     nees.push_back(lap_nees(drive));
     error_m += drive.error_m() / kLaps;
     EXPECT_GT(drive.count(Outcome::kGated), 100);
@@ -280,7 +282,8 @@ TEST(PixelSlam, SaysWhatLeavesAndNeverHoldsMoreThanItMay) {
   for (const auto evict : {ekf::Eviction::kInformation, ekf::Eviction::kArticle, ekf::Eviction::kNone}) {
     PixelSlamOptions options;
     options.capacity = 20;
-    Drive drive(4, {.evict = evict}, options);
+    options.evict = evict;
+    Drive drive(4, options);
     for (int i = 0; i < 600; ++i) {
       drive.step();
       std::set<LandmarkId> held;
@@ -298,8 +301,8 @@ TEST(PixelSlam, LetsALandmarkWanderAsTheViewOfItTurns) {
   PointRoom room(4, {});
   PixelSlamOptions loose = with_perfect_pixels({});
   loose.wander_px = 0.5;
-  PixelSlam wandering({}, loose, room.camera());
-  PixelSlam still({}, with_perfect_pixels({}), room.camera());
+  PixelSlam wandering(loose, room.camera());
+  PixelSlam still(with_perfect_pixels({}), room.camera());
   std::vector<LandmarkId> missed;
   for (int i = 0; i < 200; ++i) {
     const Motion motion = room.move();
@@ -382,7 +385,7 @@ TEST(PixelSlam, AWildPixelIsGatedAndChangesNothing) {
 TEST(PixelSlam, AStepAllocatesNothing) {
   PixelSlamOptions options;
   options.capacity = 40;
-  Drive drive(8, {}, options);
+  Drive drive(8, options);
   drive.run(300);  // the map is full by now: from here on landmarks come and go
   ASSERT_TRUE(drive.filter.map().is_full());
   drive.filter.correct(std::vector<Observation>(100));  // as many as will ever come

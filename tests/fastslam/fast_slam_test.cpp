@@ -32,6 +32,11 @@ FastSlamOptions with_particles(int particles) {
   return options;
 }
 
+FastSlamOptions seeded(FastSlamOptions options, std::uint64_t seed) {
+  options.seed = seed;
+  return options;
+}
+
 void drive_named(FastSlam& filter, CircleWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
@@ -90,7 +95,7 @@ double effective_after_drive(std::uint64_t seed, bool watching, int steps, doubl
   options.move_above = 1e9;
   options.evidence_way_m = evidence_way_m;
   options.proposal = ProposalKind::kMotion;
-  FastSlam filter(options, {}, world.sensor(), seed);
+  FastSlam filter(seeded(options, seed), world.sensor());
   const Observation first = world.sight(0);
   filter.correct({&first, 1});
   for (int i = 0; i < steps; ++i) {
@@ -128,7 +133,7 @@ TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
   double landmark_error_m = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
-    FastSlam filter({}, {}, world.sensor(), seed);
+    FastSlam filter({.seed = seed}, world.sensor());
     drive_named(filter, world, kSteps);
     error_m += position_error_m(filter, world) / kRuns;
     blind_m += dead_reckoning_error_m(seed, kSteps) / kRuns;
@@ -144,7 +149,7 @@ TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
 
 TEST(FastSlam, AddsEachLandmarkOnceAndCountsItsSightings) {
   CircleWorld world(1);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   EXPECT_EQ(filter.correct(world.look()).count(Outcome::kAdded), 8);
   EXPECT_EQ(filter.correct(world.look()).count(Outcome::kMatched), 8);
   const auto landmarks = filter.snapshot().landmarks;
@@ -160,7 +165,7 @@ TEST(FastSlam, WeightsAreTheLikelihoodsOfTheScan) {
   options.noise_inflation = 1.0;
   options.proposal = ProposalKind::kMotion;
   options.evidence_way_m = 0.0;
-  FastSlam filter(options, {}, world.sensor(), 3);
+  FastSlam filter(seeded(options, 3), world.sensor());
   filter.correct(std::vector<Observation>{world.sight(0), world.sight(1)});
   const auto landmarks =
       filter.snapshot().landmarks;  // the same for all particles, which are all at the origin
@@ -190,7 +195,7 @@ TEST(FastSlam, WeightsAreTheLikelihoodsOfTheScan) {
 
 TEST(FastSlam, PoseFollowsTheMotionBetweenSightings) {
   CircleWorld world(3);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   drive_named(filter, world, 20);
   const PoseEstimate before = filter.pose();
   const Motion motion = world.move();
@@ -206,7 +211,7 @@ TEST(FastSlam, ALongBlindDriveBendsTheCloudAsManySmallStepsDo) {
   // straight line; one Gaussian for the whole drive would not.
   constexpr int kSteps = 300;
   const Motion step{{0.1, 0.0, 0.0}, Eigen::Vector3d(0.0, 0.0, 0.0012).asDiagonal()};
-  FastSlam filter(with_particles(5000), {}, {}, 1);
+  FastSlam filter(with_particles(5000), {});
   for (int i = 0; i < kSteps; ++i) filter.predict(step);
   double mean_x_m = 0.0;
   for (int i = 0; i < kSteps; ++i)
@@ -219,7 +224,7 @@ TEST(FastSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(5);
   FastSlamOptions options;
   options.capacity = 8;
-  FastSlam filter(options, {}, world.sensor(), 1);
+  FastSlam filter(options, world.sensor());
   drive_named(filter, world, 10);
   std::vector<Observation> scan(7, world.sight(0));
   scan[0].value = RangeBearing{kNan, 0.0};
@@ -240,7 +245,7 @@ TEST(FastSlam, RefusesWhatItCannotUseAndSaysWhy) {
 }
 
 TEST(FastSlam, IgnoresAMotionThatIsNotFinite) {
-  FastSlam filter({}, {}, {}, 1);
+  FastSlam filter({}, {});
   filter.predict({{1.0, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
   filter.predict({{kNan, 0.0, 0.0}, Eigen::Matrix3d::Identity()});
   filter.predict({{0.0, 0.0, 0.0}, kNan * Eigen::Matrix3d::Identity()});
@@ -249,7 +254,7 @@ TEST(FastSlam, IgnoresAMotionThatIsNotFinite) {
 
 TEST(FastSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   CircleWorld world(6);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   drive_named(filter, world, 50);
   const PoseEstimate before = filter.pose();
   const auto landmark_before = filter.snapshot().landmarks[4];
@@ -266,7 +271,7 @@ TEST(FastSlam, AMisreadIdentityIsGatedAndChangesNothing) {
 
 TEST(FastSlam, GatesASightingInTheOppositeDirection) {
   CircleWorld world(6);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   drive_named(filter, world, 50);
   // For some particles the innovation is just below pi, for others just above -pi: they must not cancel.
   for (int landmark = 0; landmark < 4; ++landmark) {
@@ -284,7 +289,7 @@ TEST(FastSlam, MisreadIdentitiesDoNotRuinARun) {
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     CircleWorld world(seed);
     RandomStream misreads(seed, StreamPurpose::kWorld);
-    FastSlam filter({}, {}, world.sensor(), seed);
+    FastSlam filter({.seed = seed}, world.sensor());
     for (int i = 0; i < kSteps; ++i) {
       filter.predict(world.move());
       auto scan = world.look();
@@ -298,7 +303,7 @@ TEST(FastSlam, MisreadIdentitiesDoNotRuinARun) {
 
 TEST(FastSlam, ALostSetAcceptsAgainInsteadOfGatingForEver) {
   CircleWorld world(7);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   drive_named(filter, world, 50);
   filter.predict({{2.0, 1.0, 0.5}, 1e-6 * Eigen::Matrix3d::Identity()});  // pushed, and sure of it
   filter.correct(world.look());
@@ -313,7 +318,7 @@ TEST(FastSlam, ALostSetAcceptsAgainInsteadOfGatingForEver) {
 
 TEST(FastSlam, AnAbsurdObservationThatIsNotGatedLeavesTheSetAlive) {
   CircleWorld world(8);
-  FastSlam filter({}, {.probability = 1.0}, world.sensor(), 1);
+  FastSlam filter({.gate = {.probability = 1.0}}, world.sensor());
   drive_named(filter, world, 20);
   Observation absurd = world.sight(0);
   absurd.value = RangeBearing{1e200, 0.0};
@@ -335,7 +340,8 @@ TEST(FastSlam, RecoversFromLikelihoodsThatNoParticleCanHave) {
       FastSlamOptions options;
       options.proposal = proposal;
       options.evidence_way_m = 0.0;
-      FastSlam filter(options, {.probability = 1.0}, world.sensor(), 1);
+      options.gate = {.probability = 1.0};
+      FastSlam filter(options, world.sensor());
       drive_named(filter, world, 20);
       filter.predict(world.move());
       Observation absurd = world.sight(0);
@@ -353,7 +359,9 @@ TEST(FastSlam, RecoversFromLikelihoodsThatNoParticleCanHave) {
 
 TEST(FastSlam, StartsFromTheGivenBelief) {
   const PoseEstimate start{{3.0, -2.0, 1.0}, Eigen::Vector3d(0.04, 0.01, 0.01).asDiagonal()};
-  const FastSlam filter(with_particles(20'000), {}, {}, 1, 1, start);
+  FastSlamOptions options = with_particles(20'000);
+  options.initial = start;
+  const FastSlam filter(options, {});
   EXPECT_EQ(filter.pose().T_world_robot, start.T_world_robot);
   fastslam::ParticleBlocks blocks(20'000);
   const PoseEstimate cloud = fastslam::estimate(filter.particles(), blocks);
@@ -366,7 +374,7 @@ TEST(FastSlam, SnapshotAndSaveAreTheMomentsOfTheMixture) {
   CircleWorld world(10);
   FastSlamOptions options = with_particles(60);
   options.resample_below = 0.0;  // so that weights differ, and pose() is of these very particles
-  FastSlam filter(options, {}, world.sensor(), 1);
+  FastSlam filter(options, world.sensor());
   drive_named(filter, world, 10);
   const Snapshot snapshot = filter.snapshot();
   const MapState map = filter.save();
@@ -385,7 +393,7 @@ TEST(FastSlam, SnapshotAndSaveAreTheMomentsOfTheMixture) {
 
 TEST(FastSlam, TellsHowLikelyASightingWas) {
   CircleWorld world(4);
-  FastSlam filter(with_particles(1), {}, world.sensor(), 1);
+  FastSlam filter(with_particles(1), world.sensor());
   const Observation first = world.sight(0);
   filter.correct({&first, 1});
   Observation seen = world.sight(0);
@@ -405,7 +413,7 @@ TEST(FastSlam, SaveFollowsAMotionThatNoParticleHasMade) {
   CircleWorld world(11);
   FastSlamOptions options;
   options.resample_below = 0.0;
-  FastSlam filter(options, {}, world.sensor(), 1);
+  FastSlam filter(options, world.sensor());
   drive_named(filter, world, 10);
   const Eigen::MatrixXd before = filter.save().covariance;
   filter.predict({{1.0, 0.0, 0.3}, 1e-6 * Eigen::Matrix3d::Identity()});
@@ -430,7 +438,7 @@ INSTANTIATE_TEST_SUITE_P(Each, FastSlamSeeing,
 TEST_P(FastSlamSeeing, SameSeedSameBitsOnAnyNumberOfThreads) {
   const auto final_map = [](std::uint64_t seed, int threads) {
     CircleWorld world(1);
-    FastSlam filter(with_particles(700), {}, world.sensor(), seed, threads);
+    FastSlam filter(seeded(with_particles(700), seed), world.sensor(), threads);
     drive_named(filter, world, 60, GetParam());
     EXPECT_GT(filter.resamplings(), 0);
     return filter.save();
@@ -450,7 +458,7 @@ TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
     CircleWorld world(4);
     FastSlamOptions options;
     options.evidence_way_m = evidence_way_m;
-    FastSlam filter(options, {}, world.sensor(), 1);
+    FastSlam filter(options, world.sensor());
     drive_named(filter, world, 20, GetParam());
     const auto resamplings = filter.resamplings();
     const std::vector<Pose2> poses = poses_of(filter);
@@ -467,7 +475,7 @@ TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
 
 TEST_P(FastSlamSeeing, ASteadyStateStepAllocatesNothing) {
   CircleWorld world(12);
-  FastSlam filter(with_particles(600), {}, world.sensor(), 1, 2);
+  FastSlam filter(with_particles(600), world.sensor(), 2);
   drive_named(filter, world, 5, GetParam());
   std::vector<std::pair<Motion, std::vector<Observation>>> steps;
   for (int i = 0; i < 100; ++i) {
@@ -498,7 +506,7 @@ Errors errors_starting(LandmarkStart init, Seen seen) {
     CircleWorld world(seed);
     FastSlamOptions options = with_particles(100);
     options.init = init;
-    FastSlam filter(options, {}, world.sensor(), seed);
+    FastSlam filter(seeded(options, seed), world.sensor());
     drive_named(filter, world, 200, seen);
     errors.robot_m += position_error_m(filter, world) / kRuns;
     for (const auto& landmark : filter.snapshot().landmarks) {
@@ -528,7 +536,7 @@ std::vector<double> errors_m_knowing(double detection_probability, std::uint64_t
   sensor.max_range_m = 7.0;
   sensor.field_of_view_deg = 90.0;
   sensor.detection_probability = detection_probability;
-  FastSlam filter(with_particles(100), {}, sensor, seed);
+  FastSlam filter(seeded(with_particles(100), seed), sensor);
   for (int i = 0; i < 120; ++i) {
     filter.predict(world.move());
     std::vector<Observation> scan;
@@ -567,7 +575,7 @@ TEST(FastSlam, FindsOutWhatAllRangesHaveInCommon) {
     CircleWorld world(seed);
     LandmarkSensor sensor = world.sensor();
     sensor.errors.shared_range_sigma_ratio = 0.1;
-    FastSlam filter(with_particles(200), {}, sensor, seed);
+    FastSlam filter(seeded(with_particles(200), seed), sensor);
     for (int i = 0; i < 200; ++i) {
       filter.predict(world.move());
       std::vector<Observation> scan = world.look();
@@ -591,7 +599,7 @@ double error_m_when_missing(std::initializer_list<int> missed) {
     LandmarkSensor sensor = world.sensor();
     sensor.field_of_view_deg = 350.0;
     sensor.detection_probability = 0.95;  // gone after three scans
-    FastSlam filter(with_particles(100), {}, sensor, seed);
+    FastSlam filter(seeded(with_particles(100), seed), sensor);
     for (int i = 0; i < 12; ++i) {
       filter.predict(world.move());
       auto scan = keep(Seen::kRange, world.look());
@@ -610,6 +618,23 @@ TEST(FastSlam, ALandmarkThatComesBackInTimeHasNotLeftTheView) {
   const double seen_m = error_m_when_missing({});
   const double missed_m = error_m_when_missing({9, 10});
   EXPECT_LT(missed_m, 1.2 * seen_m);
+}
+
+TEST(FastSlam, ObservationsWithoutCovarianceHaveTheNoiseOfTheSensor) {
+  CircleWorld world(23);
+  const LandmarkSensor sensor = world.sensor();
+  FastSlam told({}, sensor), silent({}, sensor);
+  for (int i = 0; i < 30; ++i) {
+    const Motion motion = world.move();
+    std::vector<Observation> scan = world.look();
+    for (FastSlam* each : {&told, &silent}) each->predict(motion);
+    for (Observation& each : scan) each.covariance = noise_covariance(sensor, each.value);
+    told.correct(scan);
+    for (Observation& each : scan) each.covariance.reset();
+    EXPECT_EQ(silent.correct(scan).count(Outcome::kUnusable), 0);
+  }
+  EXPECT_EQ(silent.pose().T_world_robot, told.pose().T_world_robot);
+  EXPECT_EQ(silent.pose().covariance, told.pose().covariance);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ using test::unnamed;
 FastSlam make_filter(const CircleWorld& world, int particles = 100, int threads = 1) {
   FastSlamOptions options;
   options.particles = particles;
-  return {options, {}, world.sensor(), 1, threads, {}, AssociationOptions{}};
+  options.unknown.emplace();
+  return {options, world.sensor(), threads};
 }
 
 struct Particles {
@@ -30,7 +31,8 @@ struct Particles {
   static FastSlam make_small(const CircleWorld& world) {
     FastSlamOptions options;
     options.capacity = 5;
-    return {options, {}, world.sensor(), 1, 1, {}, AssociationOptions{}};
+    options.unknown.emplace();
+    return {options, world.sensor()};
   }
 };
 
@@ -44,7 +46,7 @@ namespace {
 
 TEST(FastSlamUnnamed, WithoutAssociationNothingUnnamedIsUsed) {
   CircleWorld world(1);
-  FastSlam filter({}, {}, world.sensor(), 1);
+  FastSlam filter({}, world.sensor());
   const Correction& correction = filter.correct(unnamed(world.look()));
   EXPECT_EQ(correction.count(Outcome::kUnidentified), 8);
 }

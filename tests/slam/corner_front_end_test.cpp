@@ -44,7 +44,7 @@ struct Robot {
     pipeline.finish();
   }
 
-  PixelSlam filter{{}, {}, {}};
+  PixelSlam filter{{}, {}};
   CornerFrontEnd front_end{filter, {}, {}, Camera(CameraOptions{}), 1};
   std::vector<Seen> steps;
   Pipeline pipeline;
@@ -99,7 +99,7 @@ TEST(CornerFrontEnd, FindsNothingInBlackAndWhiteAndGoesOnByDeadReckoning) {
 }
 
 TEST(CornerFrontEnd, PicturesAreIgnoredWhereNobodyLooks) {
-  PixelSlam filter({}, {}, {});
+  PixelSlam filter({}, {});
   Pipeline pipeline(filter, {}, {}, {}, Observe::kPixel, [](const Step&) {});
   pipeline.push(taken(0.5, noise_picture(1)));
   pipeline.finish();
@@ -110,7 +110,7 @@ TEST(CornerFrontEnd, TakesNoMemoryOnceTheMapIsFull) {
   auto opened = open_input("sim:room", {{}, {"pixel.capacity=20", "sim.speed_mps=0.2"}});
   ASSERT_TRUE(opened.ok());
   const Config& config = opened->config;
-  PixelSlam filter(config.ekf, config.pixel, config.camera);
+  PixelSlam filter(config.pixel, config.camera);
   CornerFrontEnd front_end(filter, config.tracker, config.search, Camera(config.camera), 1);
   constexpr int kPictures = 240, kCounted = 120;
   std::int64_t allocations = 0, matched = 0;

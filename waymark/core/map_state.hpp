@@ -9,6 +9,7 @@
 
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
+#include "waymark/core/result.hpp"
 #include "waymark/core/stamp.hpp"
 
 namespace waymark {
@@ -51,6 +52,10 @@ struct MapState {
   Eigen::MatrixXd covariance;          ///< symmetric, 3 + dimension * landmarks
   std::vector<LandmarkPatch> patches;  ///< of landmarks that a camera looks for
 };
+
+/// Whether a filter over landmarks of this dimension, with room for so many, can start from the map; else why
+/// not: another dimension, too many landmarks, or parts that do not fit each other.
+[[nodiscard]] Result<void> check_fits(const MapState& map, int landmark_dimension, int capacity);
 
 /// (x, y, theta, landmark 1, landmark 2, ...), in the order of the covariance.
 inline Eigen::VectorXd mean_of(const MapState& map) {

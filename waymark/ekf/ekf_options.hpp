@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+
+#include "waymark/association/association_options.hpp"
+#include "waymark/association/gate.hpp"
 #include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/eviction.hpp"
 #include "waymark/ekf/odometry_state_options.hpp"
@@ -15,6 +19,12 @@ enum class Likelihood {
 };
 
 }  // namespace ekf
+
+/// What is done with observations that do not say which landmark they are of.
+struct UnknownAssociation {
+  bool jointly = true;  ///< matched by what they say together (JointMatch), or pair by pair (ExclusiveMatch)
+  AssociationOptions options;
+};
 
 /// How updates of the camera's filter are computed.
 enum class UpdateMethod {
@@ -36,6 +46,8 @@ struct EkfOptions {
   OdometryStateOptions odometry;  ///< with which a map is not compressed
   int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
   int loaded = 0;  ///< landmarks that load() will bring: they are the first region of a compressed map
+  GateOptions gate;
+  std::optional<UnknownAssociation> unknown;  ///< empty: observations without identity are refused
 };
 
 }  // namespace waymark

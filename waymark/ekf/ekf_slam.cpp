@@ -79,18 +79,18 @@ ekf::Compression compression(const EkfOptions& options) {
   return {options.region, std::max(6 * options.region, options.loaded)};
 }
 
-EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads,
-                 const SensorErrors& errors, const std::optional<ekf::UnnamedOptions>& unnamed)
-    : errors_(errors),
+EkfSlam::EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int threads)
+    : errors_(sensor.errors),
       odometry_(options.odometry, errors_.pairs()),
       state_(2, options.capacity, options.consistency, compression(options), threads,
              errors_.pairs() + odometry_.pairs()),
+      completed_(sensor),
       options_(options),
-      gate_(gate),
-      T_robot_sensor_(T_robot_sensor),
+      gate_(options.gate),
+      T_robot_sensor_(sensor.T_robot_sensor()),
       index_(static_cast<std::size_t>(options.capacity)),
       management_(options.evict, options.capacity) {
-  if (unnamed) unnamed_.emplace(*unnamed, gate);
+  if (options.unknown) unnamed_.emplace(*options.unknown, options.gate, sensor);
   landmarks_.reserve(static_cast<std::size_t>(options.capacity));
   removed_.reserve(static_cast<std::size_t>(options.capacity));
   sightings_.reserve(ekf::CompressedState::kMaxSightings);
@@ -101,7 +101,9 @@ EkfSlam::EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2
   odometry_.start(state_);
 }
 
-void EkfSlam::load(const MapState& map) {
+Result<void> EkfSlam::load(const MapState& map) {
+  if (auto fits = check_fits(map, 2, options_.capacity); !fits) return fits;
+  if (!landmarks_.empty()) return Error{"map: a filter takes one only before anything else"};
   state_.load(mean_of(map), map.covariance);
   for (std::size_t i = 0; i < map.ids.size(); ++i) {
     const auto landmark = static_cast<int>(i);
@@ -115,6 +117,7 @@ void EkfSlam::load(const MapState& map) {
     if (map.ids[i].family == LandmarkId::Family::kNone)
       unnamed_->next_number = std::max(unnamed_->next_number, map.ids[i].number + 1);
   }
+  return {};
 }
 
 void EkfSlam::hold_landmarks() {
@@ -132,8 +135,9 @@ void EkfSlam::predict(const Motion& motion) {
   timer.finish(EkfBlock::kPredict);
 }
 
-const Correction& EkfSlam::correct(std::span<const Observation> observations) {
+const Correction& EkfSlam::correct(std::span<const Observation> given) {
   BlockTimer timer(blocks_, EkfBlock::kAssociate);
+  const std::span<const Observation> observations = completed_.of(given);
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
   if (is_lost()) widen(observations);

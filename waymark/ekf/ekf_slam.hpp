@@ -18,22 +18,13 @@
 #include "waymark/ekf/locate.hpp"
 #include "waymark/ekf/map_management.hpp"
 #include "waymark/ekf/odometry_states.hpp"
+#include "waymark/models/completed_observations.hpp"
+#include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
 
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
 [[nodiscard]] ekf::Compression compression(const EkfOptions& options);
-
-namespace ekf {
-
-/// What is done with sightings that do not say which landmark they are of.
-struct UnnamedOptions {
-  bool jointly = true;  ///< matched by what they say together (JointMatch), or pair by pair (ExclusiveMatch)
-  AssociationOptions association;
-  LandmarkSensor sensor;  ///< what it should have seen
-};
-
-}  // namespace ekf
 
 /// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks, gated one by one;
 /// a first sighting adds its landmark, in the place of the least useful one when the map is full.
@@ -43,20 +34,24 @@ struct UnnamedOptions {
 /// for it; then all of them correct it at once. Until then it costs a point, or two, per view, out of the
 /// capacity.
 ///
-/// Sightings without identity are refused, or, with UnnamedOptions, matched with landmarks that are likely.
-/// One that is left over begins a landmark if it is outside of the gates of all landmarks even after the
-/// others have corrected the state; in between it is ambiguous and not used. A landmark that was begun so is
-/// tentative, in the state but not in the map, until its Existence is confirmed; ghosts are removed, and two
-/// landmarks that turn out to be one are merged.
+/// Sightings without identity are refused, or, with EkfOptions::unknown, matched with landmarks that are
+/// likely. One that is left over begins a landmark if it is outside of the gates of all landmarks even after
+/// the others have corrected the state; in between it is ambiguous and not used. A landmark that was begun so
+/// is tentative, in the state but not in the map, until its Existence is confirmed; ghosts are removed, and
+/// two landmarks that turn out to be one are merged.
 class EkfSlam final : public Filter {
  public:
-  EkfSlam(const EkfOptions& options, const GateOptions& gate, const Pose2& T_robot_sensor, int threads = 1,
-          const SensorErrors& errors = {}, const std::optional<ekf::UnnamedOptions>& unnamed = {});
+  /// Of `sensor` it takes where it sits, its lasting errors, and its noise where an observation brings no
+  /// covariance; with EkfOptions::unknown also its limits. `threads` share updates of large maps; the result
+  /// does not depend on them. Takes all its memory here. One object must not be used by two threads at once;
+  /// two objects may.
+  EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int threads = 1);
 
   /// Starts from a saved map of 2-D landmarks, no more than `options.loaded`, with all its correlations; only
-  /// before anything else. The lasting errors of the sensor begin anew. What a map says is there is taken to
-  /// be there: a landmark without identity is neither tentative nor forgotten.
-  void load(const MapState& map);
+  /// before anything else. Changes nothing where it does not fit. The lasting errors of the sensor begin
+  /// anew. What a map says is there is taken to be there: a landmark without identity is neither tentative
+  /// nor forgotten.
+  [[nodiscard]] Result<void> load(const MapState& map);
 
   /// From now on the landmarks stay as they are and no others are added: what they are unsure of is
   /// considered (Schmidt 1966), and only the pose and the sensor's lasting errors are estimated.
@@ -103,7 +98,7 @@ class EkfSlam final : public Filter {
 
   /// What only sightings without a name need.
   struct Unnamed {
-    Unnamed(const ekf::UnnamedOptions& options, const GateOptions& gate);
+    Unnamed(const UnknownAssociation& association, const GateOptions& gate, const LandmarkSensor& sensor);
 
     AssociationModel model;
     LandmarkSensor sensor;
@@ -230,6 +225,7 @@ class EkfSlam final : public Filter {
   ekf::LastingErrors errors_;
   ekf::OdometryStates odometry_;
   ekf::CompressedState state_;
+  CompletedObservations completed_;
   EkfOptions options_;
   Gate gate_;
   Pose2 T_robot_sensor_;

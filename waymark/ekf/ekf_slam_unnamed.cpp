@@ -46,11 +46,12 @@ double farthest_twin_m(const AssociationModel& model) {
 
 }  // namespace
 
-EkfSlam::Unnamed::Unnamed(const ekf::UnnamedOptions& options, const GateOptions& gate)
-    : model(options.association, options.sensor),
-      sensor(options.sensor),
-      jointly(options.jointly),
-      joint(gate.probability, static_cast<int>(kMostConsidered), options.association.most_pairings),
+EkfSlam::Unnamed::Unnamed(const UnknownAssociation& association, const GateOptions& gate,
+                          const LandmarkSensor& observing)
+    : model(association.options, observing),
+      sensor(observing),
+      jointly(association.jointly),
+      joint(gate.probability, static_cast<int>(kMostConsidered), association.options.most_pairings),
       grid(kCell_m) {
   considered.reserve(kMostConsidered);
 }

@@ -66,16 +66,20 @@ Observation observe(const SeenLandmark& seen, LandmarkId id, const Pose2& T_robo
 
 }  // namespace
 
-Localizer::Localizer(MapState map, EkfOptions options, const GateOptions& gate, const Pose2& T_robot_sensor,
-                     int threads, const SensorErrors& errors,
-                     const std::optional<ekf::UnnamedOptions>& unnamed)
+Localizer::Localizer(MapState map, const EkfOptions& options, const LandmarkSensor& sensor, int threads)
     : map_(std::move(map)),
-      T_robot_sensor_(T_robot_sensor),
-      errors_(errors),
-      unnamed_(unnamed.has_value()),
-      ekf_(for_held(options, map_), gate, T_robot_sensor, threads, errors, unnamed) {
-  ekf_.load(map_);
-  ekf_.hold_landmarks();
+      T_robot_sensor_(sensor.T_robot_sensor()),
+      errors_(sensor.errors),
+      unnamed_(options.unknown.has_value()),
+      completed_(sensor),
+      ekf_(for_held(options, map_), sensor, threads) {}
+
+Result<std::unique_ptr<Localizer>> Localizer::make(MapState map, const EkfOptions& options,
+                                                   const LandmarkSensor& sensor, int threads) {
+  std::unique_ptr<Localizer> localizer(new Localizer(std::move(map), options, sensor, threads));
+  if (auto loaded = localizer->ekf_.load(localizer->map_); !loaded) return loaded.error();
+  localizer->ekf_.hold_landmarks();
+  return localizer;
 }
 
 void Localizer::predict(const Motion& motion) {
@@ -85,7 +89,8 @@ void Localizer::predict(const Motion& motion) {
   for (SeenLandmark& seen : memory_) move(seen, motion);
 }
 
-const Correction& Localizer::correct(std::span<const Observation> observations) {
+const Correction& Localizer::correct(std::span<const Observation> given) {
+  const std::span<const Observation> observations = completed_.of(given);
   if (!located_) return look_around(observations);
   const Correction& correction = ekf_.correct(observations);
   judge(correction);

@@ -20,9 +20,11 @@ namespace waymark {
 /// pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the map.
 class Localizer final : public Filter {
  public:
-  Localizer(MapState map, EkfOptions options, const GateOptions& gate, const Pose2& T_robot_sensor,
-            int threads = 1, const SensorErrors& errors = {},
-            const std::optional<ekf::UnnamedOptions>& unnamed = {});
+  /// A filter over the map, or why it cannot be one. Options and sensor as EkfSlam's; capacity, consistency
+  /// and compression are those that a map which is held needs. One object must not be used by two threads at
+  /// once.
+  [[nodiscard]] static Result<std::unique_ptr<Localizer>> make(MapState map, const EkfOptions& options,
+                                                               const LandmarkSensor& sensor, int threads = 1);
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -37,6 +39,7 @@ class Localizer final : public Filter {
   [[nodiscard]] int losses() const { return losses_; }
 
  private:
+  Localizer(MapState map, const EkfOptions& options, const LandmarkSensor& sensor, int threads);
   void remember(const Observation& observation);
   [[nodiscard]] std::size_t place_of(const SeenLandmark& seen) const;
   [[nodiscard]] bool is_enough(const PoseCandidates& found) const;
@@ -51,6 +54,7 @@ class Localizer final : public Filter {
   Pose2 T_robot_sensor_;
   SensorErrors errors_;
   bool unnamed_;
+  CompletedObservations completed_;
   EkfSlam ekf_;
   bool located_ = false;
   std::optional<Error> refusal_;

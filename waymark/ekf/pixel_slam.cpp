@@ -80,12 +80,11 @@ std::size_t narrowest(const ekf::State::JointCovariance& S, std::span<const char
 
 }  // namespace
 
-PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, const CameraOptions& camera,
-                     int threads)
+PixelSlam::PixelSlam(const PixelSlamOptions& options, const CameraOptions& camera, int threads)
     : options_(options),
       camera_(camera),
-      map_(options.capacity, kMostAnchors, ekf.consistency, threads, options.vibration_deg > 0.0 ? 1 : 0),
-      management_(ekf.evict, options.capacity),
+      map_(options.capacity, kMostAnchors, options.consistency, threads, options.vibration_deg > 0.0 ? 1 : 0),
+      management_(options.evict, options.capacity),
       agreement_(ekf::State::kMaxSightings),
       return_(ekf::State::kMaxSightings),
       gate_(chi2_quantile(options.gate_probability, 2)),
@@ -104,7 +103,7 @@ PixelSlam::PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, con
   told_.reserve(ekf::State::kMaxSightings);
   refined_.reserve(ekf::State::kMaxSightings);
   if (options.vibration_deg > 0.0) map_.state().relax_errors(0, 0.0);
-  if (ekf.update == UpdateMethod::kTextbook) map_.state().use_textbook_update();
+  if (options.update == UpdateMethod::kTextbook) map_.state().use_textbook_update();
 }
 
 void PixelSlam::predict(const Motion& motion) {
@@ -784,7 +783,9 @@ int PixelSlam::candidates() const {
       std::ranges::count_if(candidates_, [](const Candidate& c) { return c.anchor >= 0; }));
 }
 
-void PixelSlam::load(const MapState& map) {
+Result<void> PixelSlam::load(const MapState& map) {
+  if (auto fits = check_fits(map, 3, options_.capacity); !fits) return fits;
+  if (!map_.features().empty()) return Error{"map: a filter takes one only before anything else"};
   map_.load(map);
   for (int i = 0; i < static_cast<int>(map.ids.size()); ++i) {
     ekf::PixelMap::Feature& feature = map_.feature(i);
@@ -794,6 +795,7 @@ void PixelSlam::load(const MapState& map) {
     feature.first_view_m = feature.seen_from_m - map_.state().landmark(feature.element);
     management_.added();
   }
+  return {};
 }
 
 MapState PixelSlam::save() const {

@@ -23,12 +23,13 @@ namespace waymark {
 /// A pixel with an identity that is not known begins a candidate, whose distance later pixels find out.
 class PixelSlam final : public Filter {
  public:
-  PixelSlam(const EkfOptions& ekf, const PixelSlamOptions& options, const CameraOptions& camera,
-            int threads = 1);
+  /// `threads` share updates of large maps; the result does not depend on them. Takes all its memory here.
+  /// One object must not be used by two threads at once; two objects may.
+  PixelSlam(const PixelSlamOptions& options, const CameraOptions& camera, int threads = 1);
 
-  /// Goes on from a saved map of points; only before anything was predicted or seen. It must fit. A landmark
-  /// without patch is taken to have been seen from where the map ends.
-  void load(const MapState& map);
+  /// Goes on from a saved map of points; only before anything was predicted or seen. Changes nothing where it
+  /// does not fit. A landmark without patch is taken to have been seen from where the map ends.
+  [[nodiscard]] Result<void> load(const MapState& map);
 
   void predict(const Motion& motion) override;
   /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it

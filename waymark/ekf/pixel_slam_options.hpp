@@ -1,6 +1,7 @@
 #pragma once
 
 #include "waymark/ekf/depth_prior.hpp"
+#include "waymark/ekf/ekf_options.hpp"
 
 namespace waymark {
 
@@ -28,6 +29,9 @@ struct PixelSlamOptions {
   int least_pictures = 8;    ///< in which a candidate is seen before it is accepted at all
   int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
   double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
+  ekf::Consistency consistency = ekf::Consistency::kInvariant;
+  ekf::Eviction evict = ekf::Eviction::kInformation;
+  UpdateMethod update = UpdateMethod::kFast;
 };
 
 }  // namespace waymark

@@ -125,17 +125,16 @@ kernels::View view_of(const LandmarkSensor& sensor, const kernels::SensorMount& 
 
 }  // namespace
 
-FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
-                   std::uint64_t seed, int threads, const PoseEstimate& initial,
-                   const std::optional<AssociationOptions>& association)
-    : options_(options),
-      gate_(gate),
+FastSlam::FastSlam(const FastSlamOptions& options, const LandmarkSensor& sensor, int threads)
+    : completed_(sensor),
+      options_(options),
+      gate_(options.gate),
       sensor_(sensor),
       mount_(mount_of(sensor)),
-      seed_(seed),
+      seed_(options.seed),
       particle_blocks_(options.particles, threads),
-      particles_(options.particles, initial.T_world_robot),
-      calibration_(sensor, seed, particle_blocks_),
+      particles_(options.particles, options.initial.T_world_robot),
+      calibration_(sensor, options.seed, particle_blocks_),
       store_(particle_blocks_),
       gate_sample_(options.particles),
       move_(particle_blocks_),
@@ -145,13 +144,13 @@ FastSlam::FastSlam(const FastSlamOptions& options, const GateOptions& gate, cons
       bins_(options.kld_error > 0.0 ? static_cast<std::size_t>(options.particles) : 1),
       index_(static_cast<std::size_t>(options.capacity)),
       nobody_(particle_blocks_.capacity()),
-      estimate_(initial) {
-  if (association) {
-    association_.emplace(AssociationModel(*association, sensor), particle_blocks_);
+      estimate_(options.initial) {
+  if (options.unknown) {
+    association_.emplace(AssociationModel(*options.unknown, sensor), particle_blocks_);
     view_ = view_of(sensor, mount_);
   }
-  if (!initial.covariance.isZero(0.0))
-    fastslam::step(particles_, spread_of(initial), initial.T_world_robot.position(), {},
+  if (!options.initial.covariance.isZero(0.0))
+    fastslam::step(particles_, spread_of(options.initial), options.initial.T_world_robot.position(), {},
                    {seed_, StreamPurpose::kInitialisation, 0}, particle_blocks_);
 }
 
@@ -178,8 +177,9 @@ void FastSlam::move_particles() {
   pending_ = {};
 }
 
-const Correction& FastSlam::correct(std::span<const Observation> observations) {
+const Correction& FastSlam::correct(std::span<const Observation> given) {
   BlockTimer timer(table_, kAssociate);
+  const std::span<const Observation> observations = completed_.of(given);
   history_.scan();
   ++scan_;
   associate(observations);

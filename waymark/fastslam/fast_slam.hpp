@@ -20,6 +20,7 @@
 #include "waymark/fastslam/particles.hpp"
 #include "waymark/fastslam/resampling.hpp"
 #include "waymark/fastslam/view_history.hpp"
+#include "waymark/models/completed_observations.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
@@ -46,11 +47,10 @@ namespace waymark {
 /// * A robot that stands still is neither predicted nor resampled.
 class FastSlam final : public Filter {
  public:
-  /// `initial` is where the robot is believed to start. With `association` sightings need no identities, but
-  /// must be by range and bearing where they have none. Same seed, same bits, whatever the number of threads.
-  FastSlam(const FastSlamOptions& options, const GateOptions& gate, const LandmarkSensor& sensor,
-           std::uint64_t seed, int threads = 1, const PoseEstimate& initial = {},
-           const std::optional<AssociationOptions>& association = std::nullopt);
+  /// Of `sensor` it takes where it sits, its lasting errors, its limits, and its noise where an observation
+  /// brings no covariance. `threads` share the particles. Takes memory for particles here, and for a landmark
+  /// when it is added. One object must not be used by two threads at once; two objects may.
+  FastSlam(const FastSlamOptions& options, const LandmarkSensor& sensor, int threads = 1);
 
   /// O(1); a motion that is not finite is ignored.
   void predict(const Motion& motion) override;
@@ -155,6 +155,7 @@ class FastSlam final : public Filter {
   [[nodiscard]] Eigen::MatrixXd joint_covariance(const Pose2& T_world_robot, const std::vector<int>& indices,
                                                  const Eigen::VectorXd& landmarks) const;
 
+  CompletedObservations completed_;
   FastSlamOptions options_;
   Gate gate_;
   LandmarkSensor sensor_;

@@ -1,5 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
+#include "waymark/association/association_options.hpp"
+#include "waymark/association/gate.hpp"
+#include "waymark/core/motion.hpp"
+
 namespace waymark {
 
 /// What a particle knows when it draws its next pose.
@@ -26,6 +33,11 @@ struct FastSlamOptions {
   double kld_error = 0.0;        ///< adapt the number of particles to keep this distance; 0: always the same
   int kld_least = 50;            ///< particles to keep then
   int capacity = 1000;           ///< most landmarks in the map
+  GateOptions gate;
+  std::uint64_t seed = 1;  ///< same seed, same bits, whatever the number of threads
+  PoseEstimate initial;    ///< where the robot is believed to start
+  /// With it observations need no identities, but must be by range and bearing where they have none.
+  std::optional<AssociationOptions> unknown;
 };
 
 }  // namespace waymark

@@ -9,41 +9,44 @@
 namespace waymark {
 namespace {
 
-std::optional<ekf::UnnamedOptions> unnamed(const Config& config) {
-  if (config.associate == Association::kKnown) return std::nullopt;
-  return ekf::UnnamedOptions{config.associate == Association::kJcbb, config.association, config.sensor};
-}
-
 /// Where nothing tells how large the world is, distances are what the odometry says.
-EkfOptions ekf_options(const Config& config) {
+EkfOptions ekf_options(const Config& config, const std::optional<MapState>& start) {
   EkfOptions options = config.ekf;
+  options.gate = config.gate;
+  if (config.associate != Association::kKnown)
+    options.unknown = UnknownAssociation{config.associate == Association::kJcbb, config.association};
   if (!tells_size(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
+  if (start) options.loaded = static_cast<int>(start->ids.size());
   return options;
 }
 
 /// EKF-SLAM over ranges, bearings or both.
-std::unique_ptr<Filter> make_planar_ekf(const Config& config, const std::optional<MapState>& start) {
-  const auto T_robot_sensor = config.sensor.T_robot_sensor();
-  if (config.map.localize && start)
-    return std::make_unique<Localizer>(*start, ekf_options(config), config.gate, T_robot_sensor,
-                                       config.threads, config.sensor.errors, unnamed(config));
-  EkfOptions options = ekf_options(config);
-  if (start) options.loaded = static_cast<int>(start->ids.size());
-  auto filter = std::make_unique<EkfSlam>(options, config.gate, T_robot_sensor, config.threads,
-                                          config.sensor.errors, unnamed(config));
-  if (start) filter->load(*start);
-  return filter;
+Result<FilterSystem> make_planar_ekf(const Config& config, const std::optional<MapState>& start) {
+  const EkfOptions options = ekf_options(config, start);
+  if (config.map.localize && start) {
+    auto localizer = Localizer::make(*start, options, config.sensor, config.threads);
+    if (!localizer) return localizer.error();
+    return FilterSystem{*std::move(localizer), nullptr};
+  }
+  auto filter = std::make_unique<EkfSlam>(options, config.sensor, config.threads);
+  if (start)
+    if (auto loaded = filter->load(*start); !loaded) return loaded.error();
+  return FilterSystem{std::move(filter), nullptr};
 }
 
-FilterSystem make_pixel_ekf(const Config& config, const std::optional<MapState>& start) {
-  auto filter = std::make_unique<PixelSlam>(config.ekf, config.pixel, config.camera, config.threads);
+Result<FilterSystem> make_pixel_ekf(const Config& config, const std::optional<MapState>& start) {
+  PixelSlamOptions options = config.pixel;
+  options.consistency = config.ekf.consistency;
+  options.evict = config.ekf.evict;
+  options.update = config.ekf.update;
+  auto filter = std::make_unique<PixelSlam>(options, config.camera, config.threads);
   auto front_end = std::make_unique<CornerFrontEnd>(*filter, config.tracker, config.search,
                                                     Camera(config.camera), config.threads);
   if (start) {
-    filter->load(*start);
+    if (auto loaded = filter->load(*start); !loaded) return loaded.error();
     front_end->remember(start->patches);
   }
-  return {std::move(filter), std::move(front_end)};
+  return FilterSystem{std::move(filter), std::move(front_end)};
 }
 
 Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState>& start) {
@@ -60,7 +63,7 @@ Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState
         "ekf.calibrate_odometry: not with observe=pixel, nor with ekf.compressed=true: it moves the whole "
         "map"};
   if (config.observe == Observe::kPixel) return make_pixel_ekf(config, start);
-  return FilterSystem{make_planar_ekf(config, start), nullptr};
+  return make_planar_ekf(config, start);
 }
 
 Result<FilterSystem> make_fastslam(const Config& config) {
@@ -72,10 +75,11 @@ Result<FilterSystem> make_fastslam(const Config& config) {
   if (by_likelihood && (config.observe == Observe::kRange || config.observe == Observe::kBearing))
     return Error{
         "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
-  return FilterSystem{std::make_unique<FastSlam>(
-                          config.fastslam, config.gate, config.sensor, config.seed, config.threads,
-                          PoseEstimate{}, by_likelihood ? std::optional(config.association) : std::nullopt),
-                      nullptr};
+  FastSlamOptions options = config.fastslam;
+  options.gate = config.gate;
+  options.seed = config.seed;
+  if (by_likelihood) options.unknown = config.association;
+  return FilterSystem{std::make_unique<FastSlam>(options, config.sensor, config.threads), nullptr};
 }
 
 }  // namespace

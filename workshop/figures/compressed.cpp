@@ -110,7 +110,7 @@ struct Cost {
 
 Cost measure(int landmarks, Compress compressed, int steps, int threads) {
   Field field(landmarks);
-  EkfSlam filter({.capacity = landmarks, .compressed = compressed}, {}, {}, threads);
+  EkfSlam filter({.capacity = landmarks, .compressed = compressed}, {}, threads);
   while (!field.mapped()) advance(filter, field.next());
   const int regions_before = filter.state().closed_regions();
   Cost cost;
@@ -145,10 +145,9 @@ double pose_nees(const Pose2& truth, const PoseEstimate& pose) {
 void compare(const char* name, ekf::Consistency consistency, Compress compressed, int landmarks, int steps,
              int threads) {
   Field field(landmarks);
-  EkfSlam whole({.consistency = consistency, .capacity = landmarks, .compressed = Compress::kNever}, {}, {},
+  EkfSlam whole({.consistency = consistency, .capacity = landmarks, .compressed = Compress::kNever}, {},
                 threads);
-  EkfSlam local({.consistency = consistency, .capacity = landmarks, .compressed = compressed}, {}, {},
-                threads);
+  EkfSlam local({.consistency = consistency, .capacity = landmarks, .compressed = compressed}, {}, threads);
   double position_m = 0.0;
   double heading_rad = 0.0;
   double sigma = 0.0;  // in units of the whole filter's own uncertainty

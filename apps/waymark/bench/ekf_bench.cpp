@@ -65,7 +65,7 @@ std::shared_ptr<EkfSlam> start_filter(const SyntheticRun& run, ekf::Consistency 
                                       Compress compressed = Compress::kNever) {
   const EkfOptions options{
       .consistency = mode, .capacity = static_cast<int>(run.first_look.size()), .compressed = compressed};
-  auto filter = std::make_shared<EkfSlam>(options, GateOptions{}, Pose2{}, threads);
+  auto filter = std::make_shared<EkfSlam>(options, LandmarkSensor{}, threads);
   filter->predict(run.start);
   filter->correct(run.first_look);
   return filter;

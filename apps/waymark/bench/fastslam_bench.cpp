@@ -55,7 +55,7 @@ Observations of_kind(Kind kind, Observations observations) {
 /// A filter that has seen every landmark once, by range and bearing.
 std::unique_ptr<FastSlam> start_filter(const SyntheticRun& run, FastSlamOptions options, int threads = 1) {
   options.capacity = static_cast<int>(run.first_look.size());
-  auto filter = std::make_unique<FastSlam>(options, GateOptions{}, LandmarkSensor{}, 1, threads);
+  auto filter = std::make_unique<FastSlam>(options, LandmarkSensor{}, threads);
   filter->correct(run.first_look);
   return filter;
 }
