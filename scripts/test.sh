@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Folders with raw memory, foreign bytes or threads; their tests also run under the sanitizers.
-sanitized=(core kernels ekf fastslam vision io)
+sanitized=(core kernels ekf fastslam vision config logs bags datasets)
 
 # step TEXT: announces what comes, with the seconds since the start.
 step() { printf '\n== %s (at %s s)\n' "$1" "$SECONDS"; }
