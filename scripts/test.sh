@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# All checks, from a fresh machine: format, layout, pages, release build with warnings as errors, tests, sanitizers, lint of
-# what changed. Closes with ctest's count of the tests.
+# All checks, from a fresh machine: format, layout, pages, reference, release build with warnings as errors, tests,
+# sanitizers, lint of what changed. Closes with ctest's count of the tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Folders with raw memory, foreign bytes or threads; their tests also run under the sanitizers.
-sanitized=(core kernels ekf fastslam vision io)
+sanitized=(core kernels ekf fastslam vision config logs bags datasets)
 
 # step TEXT: announces what comes, with the seconds since the start.
 step() { printf '\n== %s (at %s s)\n' "$1" "$SECONDS"; }
@@ -27,11 +27,12 @@ check() {
 
 step "set-up"
 scripts/setup.sh --dev
-step "format, layout and pages"
+step "format, layout, pages and reference"
 scripts/format.sh --check
 scripts/check_layout.sh
 scripts/check_equations.sh
 scripts/pages.sh --check
+scripts/doxygen.sh
 step "release build"
 build ci
 step "tests and examples"

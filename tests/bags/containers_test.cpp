@@ -26,7 +26,7 @@ using testing::Contains;
 using testing::HasSubstr;
 
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's own, which has rosbag
-const std::string kWriters = WAYMARK_SOURCE_DIR "/tests/io/bag/writers/";
+const std::string kWriters = WAYMARK_SOURCE_DIR "/tests/bags/writers/";
 const std::string kWeb = WAYMARK_SOURCE_DIR "/web";
 
 bool runs(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }

@@ -3,7 +3,7 @@
 # writers. Usage: containers_test.sh WAYMARK SOURCE_DIR; status 77: this machine has no writers.
 set -euo pipefail
 waymark=$1
-writers=$2/tests/io/bag/writers
+writers=$2/tests/bags/writers
 web=$2/web
 /usr/bin/python3 -c 'import rosbag' 2>/dev/null && [ -d "$web/node_modules/@mcap" ] || exit 77
 work=$(mktemp -d)

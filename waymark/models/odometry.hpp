@@ -69,8 +69,9 @@ struct ArcStep {
   double turn_rad = 0.0;
 };
 
-/// The increment of an arc of length ds that turns by dth, starting along +x (Vincke et al. 2012, equations 4
-/// and 6): x = ds k cos(dth/2), y = ds k sin(dth/2), k = sin(dth/2)/(dth/2), or 1 in the article's form.
+/// The increment of an arc of length ds that turns by dth, starting along +x (Vincke et al. 2012
+/// \cite vincke2012, equations 4 and 6): x = ds k cos(dth/2), y = ds k sin(dth/2), k = sin(dth/2)/(dth/2), or
+/// 1 in the article's form.
 [[nodiscard]] Pose2 arc_increment(const ArcStep& step, ArcModel model);
 /// d(x, y, theta)/d(ds, dth) of the above, 3x2.
 [[nodiscard]] Eigen::Matrix<double, 3, 2> arc_jacobian(const ArcStep& step, ArcModel model);
@@ -91,17 +92,18 @@ struct ArcStep {
 [[nodiscard]] Motion turned_as_measured(const Motion& motion, double turn_rad,
                                         const OdometryOptions& options);
 
-/// Encoder increments to distance and turn (Vincke et al. 2012, equation 5) and its Jacobian to (left, right)
-/// angles.
+/// Encoder increments to distance and turn (Vincke et al. 2012 \cite vincke2012, equation 5) and its Jacobian
+/// to (left, right) angles.
 [[nodiscard]] ArcStep wheel_step(const WheelAngles& increment, const WheelGeometry& wheels);
 [[nodiscard]] Eigen::Matrix2d wheel_jacobian(const WheelGeometry& wheels);
 
-/// Motion from encoder increments: independent errors per wheel (Chong and Kleeman 1997) plus slip.
+/// Motion from encoder increments: independent errors per wheel (Chong and Kleeman 1997
+/// \cite chong1997) plus slip.
 [[nodiscard]] Motion wheel_motion(const WheelAngles& increment, const OdometryOptions& options);
 
 /// What the middle of a car's rear axle does while the measured wheel rolls so far at a steering angle
-/// (Guivant and Nebot 2001, section V): ds = rolled / (1 - tan(steer) H / L), dth = ds tan(steer) / L. With H
-/// of a wheel left of the middle, which rolls less in a left turn.
+/// (Guivant and Nebot 2001 \cite guivant2001, section V): ds = rolled / (1 - tan(steer) H / L), dth = ds
+/// tan(steer) / L. With H of a wheel left of the middle, which rolls less in a left turn.
 [[nodiscard]] ArcStep car_step(double rolled_m, double steer_rad, const CarGeometry& car);
 /// d(ds, dth)/d(rolled, steer) of the above.
 [[nodiscard]] Eigen::Matrix2d car_jacobian(double rolled_m, double steer_rad, const CarGeometry& car);

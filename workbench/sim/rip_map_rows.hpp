@@ -5,9 +5,9 @@
 
 namespace waymark::kernels {
 
-/// How the texels of a rip map lie in memory. A rip map (Hewitt 1993) holds a texture reduced in width and in
-/// height by every pair of powers of two (lu, lv), so that a texture seen at a slant is averaged along the
-/// slant only. All sizes are powers of two, and the texture repeats.
+/// How the texels of a rip map lie in memory. A rip map holds a texture reduced in width and in height by
+/// every pair of powers of two (lu, lv), so that a texture seen at a slant is averaged along the slant only.
+/// All sizes are powers of two, and the texture repeats.
 ///
 /// An element holds a texel in its low byte and the texel below in its high byte, and a row ends with its
 /// first element once more: one load of 32 bits fetches the four texels of a bilinear interpolation.
