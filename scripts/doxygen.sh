@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the reference of the public headers, with the pages of docs/, in build/doxygen; a link or a citation that leads
 # nowhere is an error. Public are waymark/waymark.hpp, what it includes, and what the examples include of the workbench.
-# Needs doxygen; without bibtex papers go by their keys in docs/references.bib. Both come with scripts/setup.sh --dev.
+# Needs doxygen; it comes with scripts/setup.sh --dev. Without bibtex papers go by their keys in docs/references.bib.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -17,7 +17,7 @@ dev_packages=(
   libopenmpi-dev openmpi-bin
   python3-rosbag python3-nav-msgs python3-sensor-msgs python3-geometry-msgs lz4 zstd
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
-  doxygen texlive-binaries
+  doxygen
 )
 
 list=no

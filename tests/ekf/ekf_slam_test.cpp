@@ -377,7 +377,7 @@ TEST(EkfSlam, ALoadedMapIsTheFirstRegionHoweverSmallRegionsAre) {
   map.covariance = 0.01 * Eigen::MatrixXd::Identity(3 + 2 * kCount, 3 + 2 * kCount);
   map.covariance.array() += 0.002;
   EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .region = 48, .loaded = kCount}, {});
-  filter.load(map);
+  ASSERT_TRUE(filter.load(map));
   EXPECT_EQ(filter.save().covariance, map.covariance);
   const Observation unknown{LandmarkId{LandmarkId::Family::kMarker, 999}, RangeBearing{2.0, 0.1},
                             Eigen::Matrix2d(0.01 * Eigen::Matrix2d::Identity())};
@@ -393,7 +393,7 @@ TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
   drive(mapping, world, 60);
   const MapState saved = mapping.save();
   EkfSlam filter({.consistency = ekf::Consistency::kStandard, .capacity = 8, .loaded = 8}, world.sensor());
-  filter.load(saved);
+  ASSERT_TRUE(filter.load(saved));
   filter.hold_landmarks();
   drive(filter, world, 100);
   Observation unknown = world.sight(0);

@@ -126,7 +126,7 @@ TEST(PixelSlam, GoesOnFromASavedMap) {
     const MapState saved = drive.filter.save();
     ASSERT_GT(saved.ids.size(), 20U);
     PixelSlam again(with_perfect_pixels({}), drive.room.camera());
-    again.load(with_views_from(saved, saved.T_world_robot));
+    ASSERT_TRUE(again.load(with_views_from(saved, saved.T_world_robot)));
     const MapState loaded = again.save();
     EXPECT_EQ(loaded.ids, saved.ids);
     EXPECT_EQ(loaded.landmarks, saved.landmarks);

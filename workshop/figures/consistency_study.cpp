@@ -81,7 +81,7 @@ struct Run {
 Run run_once(ekf::Consistency mode, const ConsistencyOptions& options, int number) {
   World world(options, number);
   // Wide open: the study is of the estimate, and an overconfident filter would refuse its own corrections.
-  EkfSlam filter({mode, options.landmarks, .gate = {1.0 - 1e-12}}, {});
+  EkfSlam filter({.consistency = mode, .capacity = options.landmarks, .gate = {1.0 - 1e-12}}, {});
   Run run;
   for (int step = 0; step < options.steps; ++step) {
     filter.predict(world.drive());

@@ -1,4 +1,4 @@
-// A log through the whole pipeline with a callback on every step: usage 02_run_a_log [LOG]
+// A log through the whole pipeline with a callback on every step: usage 03_run_a_log [LOG]
 // LOG is anything that `waymark run` takes; without one it is a simulated drive.
 
 #include <cstdio>
