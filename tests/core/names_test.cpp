@@ -23,6 +23,12 @@ TEST(Names, AreSeparatedByCommas) {
   EXPECT_EQ(comma_separated({}), "");
 }
 
+TEST(Names, AreOfferedAsAlternatives) {
+  EXPECT_EQ(one_of({"a", "b", "c"}), "a, b or c");
+  EXPECT_EQ(one_of({"a"}), "a");
+  EXPECT_EQ(one_of({}), "");
+}
+
 TEST(Names, DistanceCountsInsertedDeletedAndReplacedLetters) {
   EXPECT_EQ(edit_distance("ekf", "ekf"), 0U);
   EXPECT_EQ(edit_distance("", "ekf"), 3U);

@@ -38,4 +38,13 @@ std::string comma_separated(const std::vector<std::string>& names) {
   return all;
 }
 
+std::string one_of(const std::vector<std::string>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) all.append(i + 1 == names.size() ? " or " : ", ");
+    all.append(names[i]);
+  }
+  return all;
+}
+
 }  // namespace waymark

@@ -17,4 +17,7 @@ namespace waymark {
 /// "a, b, c".
 [[nodiscard]] std::string comma_separated(const std::vector<std::string>& names);
 
+/// "a, b or c".
+[[nodiscard]] std::string one_of(const std::vector<std::string>& names);
+
 }  // namespace waymark

@@ -17,15 +17,6 @@
 namespace waymark {
 namespace {
 
-std::string join(const std::vector<std::string>& names) {
-  std::string all;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) all.append(i + 1 == names.size() ? " or " : ", ");
-    all.append(names[i]);
-  }
-  return all;
-}
-
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -120,7 +111,7 @@ void Schema::add_choice(std::string name, std::vector<std::string> names, std::s
     set(static_cast<std::size_t>(found - shared->begin()));
     return true;
   };
-  add({std::move(name), std::move(help), join(*shared),
+  add({std::move(name), std::move(help), one_of(*shared),
        [shared, get = std::move(get)] { return (*shared)[get()]; }, std::move(set_by_name)});
 }
 

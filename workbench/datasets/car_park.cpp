@@ -74,7 +74,7 @@ bool is_car_park(const MatFile& file) {
 }
 
 Result<std::unique_ptr<Source>> open_car_park(const MatFile& file) {
-  auto info = vehicle_info("car park", "car park", kCarParkSettings);
+  auto info = vehicle_info("car park", "car park", "car-park");
   if (!info) return info.error();
   if (auto done = read_beacons(file.path().parent_path() / kBeaconsFile, *info); !done) return done.error();
   std::vector<Event> events;

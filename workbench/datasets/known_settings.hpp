@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -8,21 +9,8 @@
 
 namespace waymark {
 
-/// The settings of a published data set, which its reader hands on: configs/NAME.yaml, built in.
-struct KnownSettings {
-  const char* file;
-  const char* yaml;
-
-  /// As LogInfo has them.
-  [[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> flat() const;
-};
-
-extern const KnownSettings kMrclamSettings;
-extern const KnownSettings kPlazaSettings;
-extern const KnownSettings kLostInTheWoodsSettings;
-extern const KnownSettings kUwbLabyrinthSettings;
-extern const KnownSettings kPlanarMonoSlamSettings;
-extern const KnownSettings kVictoriaParkSettings;
-extern const KnownSettings kCarParkSettings;
+/// The settings of a published data set, which its reader hands on as LogInfo has them: configs/NAME.yaml,
+/// which is built in.
+[[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> known_settings(std::string_view name);
 
 }  // namespace waymark

@@ -92,7 +92,7 @@ Result<LogInfo> read_info(const MatFile& file) {
   LogInfo info;
   info.name = file.path().stem().string();
   info.format = "lost-in-the-woods";
-  auto settings = kLostInTheWoodsSettings.flat();
+  auto settings = known_settings("lost-in-the-woods");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
   const auto ahead_m = file.matrix("d", 1, "laser ahead of the robot m");

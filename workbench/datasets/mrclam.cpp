@@ -165,7 +165,7 @@ Result<LogInfo> read_info(const fs::path& folder, int robot) {
   LogInfo info;
   info.name = fmt::format("{} robot {}", base_name(folder), robot);
   info.format = "MRCLAM";
-  auto settings = kMrclamSettings.flat();
+  auto settings = known_settings("mrclam");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
   auto landmarks = read_landmarks(folder / "Landmark_Groundtruth.dat");

@@ -243,7 +243,7 @@ Result<LogInfo> read_info(const fs::path& folder, const PixelNoise& noise) {
   info.name = base_name(folder);
   info.format = "planar mono SLAM";
   info.only_pixels = true;
-  auto settings = kPlanarMonoSlamSettings.flat();
+  auto settings = known_settings("planar-mono-slam");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
   auto camera = read_camera(folder / kCameraFile);

@@ -112,7 +112,7 @@ Result<LogInfo> info_of(const Run& run) {
   LogInfo info;
   info.name = run.name;
   info.format = "Plaza";
-  auto settings = kPlazaSettings.flat();
+  auto settings = known_settings("plaza");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
   for (Eigen::Index row = 0; row < run.beacons.rows(); ++row)

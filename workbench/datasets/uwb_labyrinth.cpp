@@ -132,7 +132,7 @@ Result<std::unique_ptr<Source>> open_uwb_labyrinth(const fs::path& folder) {
   LogInfo info;
   info.name = base_name(folder);
   info.format = "UWB labyrinth";
-  auto settings = kUwbLabyrinthSettings.flat();
+  auto settings = known_settings("uwb-labyrinth");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
   std::vector<Event> events;

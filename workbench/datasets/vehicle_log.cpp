@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "workbench/datasets/known_settings.hpp"
+
 namespace waymark {
 namespace {
 
@@ -17,15 +19,15 @@ bool agree(const Fix& a, const Fix& b) {
 
 }  // namespace
 
-Result<LogInfo> vehicle_info(std::string name, std::string format, const KnownSettings& settings) {
+Result<LogInfo> vehicle_info(std::string name, std::string format, std::string_view settings) {
   LogInfo info;
   info.name = std::move(name);
   info.format = std::move(format);
   info.identities = false;
   info.truth_sensor_m = kVehicleLaser_m;
-  auto flat = settings.flat();
-  if (!flat) return flat.error();
-  info.settings = *std::move(flat);
+  auto known = known_settings(settings);
+  if (!known) return known.error();
+  info.settings = *std::move(known);
   return info;
 }
 

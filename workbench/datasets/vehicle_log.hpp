@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,7 +9,6 @@
 #include "waymark/core/event.hpp"
 #include "waymark/core/result.hpp"
 
-#include "workbench/datasets/known_settings.hpp"
 #include "workbench/datasets/mat_file.hpp"
 #include "workbench/logs/source.hpp"
 
@@ -18,10 +18,9 @@ namespace waymark {
 /// University of Sydney, m ahead and left of the middle of its rear axle.
 inline const Eigen::Vector2d kVehicleLaser_m(3.78, 0.50);
 
-/// What the logs of that vehicle have in common: its settings, no identities, and a truth that is of the
-/// antenna.
-[[nodiscard]] Result<LogInfo> vehicle_info(std::string name, std::string format,
-                                           const KnownSettings& settings);
+/// What the logs of that vehicle have in common: known_settings() of the name `settings`, no identities, and
+/// a truth that is of the antenna.
+[[nodiscard]] Result<LogInfo> vehicle_info(std::string name, std::string format, std::string_view settings);
 
 /// Times that never go back, one per row. `unit_s`: 1e-3 where they are in milliseconds.
 [[nodiscard]] Result<std::vector<Stamp>> read_stamps(const MatFile& file, std::string_view variable,

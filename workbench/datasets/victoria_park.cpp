@@ -70,7 +70,7 @@ Result<std::vector<std::string>> read_clean_fixes(const fs::path& path, std::vec
 bool is_victoria_park(const MatFile& file) { return file.has_all({"zt", "TLsr", "u", "time"}); }
 
 Result<std::unique_ptr<Source>> open_victoria_park(const MatFile& file) {
-  auto info = vehicle_info("Victoria Park", "Victoria Park", kVictoriaParkSettings);
+  auto info = vehicle_info("Victoria Park", "Victoria Park", "victoria-park");
   if (!info) return info.error();
   std::vector<Event> events;
   if (auto done = read_truck_steering(file, events); !done) return done.error();

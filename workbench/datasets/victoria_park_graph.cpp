@@ -193,7 +193,7 @@ bool is_victoria_park_graph(const fs::path& file) {
 }
 
 Result<std::unique_ptr<Source>> open_victoria_park_graph(const fs::path& file) {
-  auto info = vehicle_info("Victoria Park, known trees", "Victoria Park graph", kVictoriaParkSettings);
+  auto info = vehicle_info("Victoria Park, known trees", "Victoria Park graph", "victoria-park");
   if (!info) return info.error();
   info->identities = true;
   auto graph = read_graph(file);

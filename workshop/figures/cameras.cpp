@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -179,6 +180,7 @@ void print_found(const std::vector<SplitOutcome>& outcomes) {
 }
 
 void print_one_camera(const char* errors, const std::vector<Scene>& scenes, int seeds) {
+  if (scenes.empty()) return;
   std::vector<SplitOutcome> all;
   for (const Scene& scene : scenes) {
     const auto outcomes = split_all(scene, seeds);
@@ -201,12 +203,26 @@ void print_two_cameras(const std::vector<Scene>& scenes, int seeds) {
   }
 }
 
-void cameras(int seeds) {
+struct CamerasRequest {
+  int seeds = 20;
+  std::string only;  ///< empty: all kinds of sets
+};
+
+/// Those whose name has the text in it.
+std::vector<Scene> only(const std::string& text, std::vector<Scene> scenes) {
+  std::erase_if(scenes, [&text](const Scene& scene) {
+    return std::string_view(scene.name).find(text) == std::string_view::npos;
+  });
+  return scenes;
+}
+
+void cameras(const CamerasRequest& request) {
   fmt::print("{:<36}{:>6}{:>8}{:>12}{:>12}{:>8}\n", "contrast", "sets", "found", "largest", "not found",
              "exact");
-  print_one_camera("one camera, errors independent", with_independent_errors(), seeds);
-  print_one_camera("one camera, errors in common", with_common_errors(), seeds);
-  print_two_cameras(of_two_cameras(), seeds);
+  print_one_camera("one camera, errors independent", only(request.only, with_independent_errors()),
+                   request.seeds);
+  print_one_camera("one camera, errors in common", only(request.only, with_common_errors()), request.seeds);
+  print_two_cameras(only(request.only, of_two_cameras()), request.seeds);
 }
 
 }  // namespace
@@ -214,9 +230,10 @@ void cameras(int seeds) {
 void add_cameras(CLI::App& app) {
   auto* command =
       app.add_subcommand("cameras", "whether photographs of a board are told to be of two cameras");
-  auto seeds = std::make_shared<int>(20);
-  command->add_option("--seeds", *seeds, "sets of each kind")->check(CLI::PositiveNumber);
-  command->callback([seeds] { cameras(*seeds); });
+  auto request = std::make_shared<CamerasRequest>();
+  command->add_option("--seeds", request->seeds, "sets of each kind")->check(CLI::PositiveNumber);
+  command->add_option("--only", request->only, "kinds whose name has this in it");
+  command->callback([request] { cameras(*request); });
 }
 
 }  // namespace waymark

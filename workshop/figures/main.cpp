@@ -224,13 +224,15 @@ int main(int argc, char** argv) {
   auto* study = app.add_subcommand("study", "the simulated world that serves every comparison");
   study->add_option("--seeds", study_seeds);
   study->callback([&] { status = waymark::study_world(study_seeds, settings); });
+  int landmarks = 3000;
   int frames = 5000;
   int threads = 1;
   auto* compressed =
       app.add_subcommand("compressed", "what a step costs in a large map, and how exact it is");
+  compressed->add_option("--landmarks", landmarks, "of the largest map")->check(CLI::Range(300, 100000));
   compressed->add_option("--frames", frames);
   compressed->add_option("--threads", threads);
-  compressed->callback([&] { status = waymark::compressed(frames, threads); });
+  compressed->callback([&] { status = waymark::compressed(landmarks, frames, threads); });
   for (auto* command : {mrclam, woods, loop, study})
     command->add_option("--set", settings, "config key=value")->allow_extra_args(false);
   waymark::add_budget(app, status);

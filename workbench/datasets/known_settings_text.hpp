@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace waymark {
+
+/// configs/NAME.yaml as it is.
+struct SettingsText {
+  std::string_view name;
+  const char* yaml;
+};
+
+/// All of configs/, built in.
+[[nodiscard]] std::span<const SettingsText> known_settings_texts();
+
+}  // namespace waymark
