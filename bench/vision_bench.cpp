@@ -179,9 +179,10 @@ class TrackedFrame {
   }
 
   void track() {
-    tracker_.begin(image_, moved_, expectations_);
-    benchmark::DoNotOptimize(tracker_.match());
-    benchmark::DoNotOptimize(tracker_.finish());
+    tracker_.track(image_, moved_, expectations_, [](vision::Round, const vision::Sightings& seen) {
+      benchmark::DoNotOptimize(seen);
+      return Correction{};
+    });
   }
   [[nodiscard]] double count(vision::Look::Result result) const {
     return static_cast<double>(std::ranges::count(tracker_.looks(), result, &vision::Look::result));
@@ -193,16 +194,18 @@ class TrackedFrame {
   static constexpr double kDepth_m = 3.0;
 
   void learn_corners() {
-    tracker_.begin(image_, {}, expectations_);
-    static_cast<void>(tracker_.match());
+    const std::vector<Expectation> known = expectations_;
     std::vector<Innovation> taken;
-    for (const Observation& seen : tracker_.finish().found) {
-      const auto& place = std::get<Pixel>(seen.value);
-      if (expectations_.size() == kFeatures) break;
-      taken.push_back({*seen.id, Outcome::kAdded});
-      expectations_.push_back(expectation(*seen.id, {place.u_px, place.v_px}));
-    }
-    tracker_.learn({taken, {}});
+    tracker_.track(image_, {}, known, [&](vision::Round round, const vision::Sightings& sightings) {
+      if (round == vision::Round::kLandmarks) return Correction{};
+      for (const Observation& seen : sightings.found) {
+        const auto& place = std::get<Pixel>(seen.value);
+        if (expectations_.size() == kFeatures) break;
+        taken.push_back({*seen.id, Outcome::kAdded});
+        expectations_.push_back(expectation(*seen.id, {place.u_px, place.v_px}));
+      }
+      return Correction{taken, {}};
+    });
   }
   [[nodiscard]] Expectation expectation(LandmarkId id, const Eigen::Vector2d& pixel) const {
     const CameraPose pose = camera_.pose({});

@@ -104,7 +104,7 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
   scan[1].id.reset();
   scan[2].value = Pixel{1.0, 2.0};
-  scan[3].covariance.reset();
+  scan[3].covariance = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
   scan.push_back(world.sight(0));
   const auto& correction = filter.correct(scan);
@@ -435,6 +435,15 @@ TEST(EkfSlam, AMapThatDoesNotFitChangesNothing) {
   EXPECT_NE(small.load(saved).error().message.find("8 landmarks are more than"), std::string::npos);
   EXPECT_TRUE(small.snapshot().landmarks.empty());
   EXPECT_FALSE(filter.load(saved)) << "it has a map already";
+  MapState large;
+  large.ids.resize(500);
+  large.observations.resize(500);
+  large.landmarks = Eigen::VectorXd::Zero(1000);
+  large.covariance = Eigen::MatrixXd::Identity(1003, 1003);
+  EkfSlam unprepared({.capacity = 1000}, {});
+  ASSERT_FALSE(unprepared.load(large));
+  EXPECT_NE(unprepared.load(large).error().message.find("EkfOptions::loaded is 0"), std::string::npos);
+  EXPECT_TRUE(EkfSlam({.capacity = 1000, .loaded = 500}, {}).load(large));
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(EkfSlamUnnamed, NonsenseIsRefused) {
   auto scan = unnamed(world.look());
   std::get<RangeBearing>(scan[0].value).range_m = NAN;
   scan[1].covariance = Eigen::Matrix2d::Constant(NAN);
-  scan[2].covariance.reset();
+  scan[2].covariance = Eigen::Matrix2d::Constant(INFINITY);
   scan[3].value = Bearing{0.1};
   const Correction& correction = filter.correct(scan);
   EXPECT_EQ(correction.count(Outcome::kUnusable), 4);

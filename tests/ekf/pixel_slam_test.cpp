@@ -38,8 +38,7 @@ struct Drive {
   void step() {
     filter.predict(room.move());
     seen = room.look_for(filter.expect(), missed);
-    filter.missed(missed);
-    note(filter.correct(seen));
+    note(filter.correct(seen, missed));
     std::vector<Observation> fresh = room.look_for_new(3);
     std::erase_if(fresh, [this](const Observation& each) { return gone.contains(*each.id); });
     note(filter.correct(fresh));
@@ -251,8 +250,7 @@ TEST(PixelSlam, ACandidateThatIsNotFoundIsGivenUp) {
     ASSERT_LT(pictures, 31);
     drive.filter.predict(drive.room.move());
     ASSERT_LE(drive.filter.expect().size(), 1U);
-    drive.filter.missed({&id, 1});
-    drive.note(drive.filter.correct({}));
+    drive.note(drive.filter.correct({}, {&id, 1}));
   }
   EXPECT_EQ(drive.gone, std::set<LandmarkId>{id});
   EXPECT_EQ(drive.filter.map().state().landmarks(), 0);  // its anchor has left as well
@@ -270,8 +268,7 @@ TEST(PixelSlam, ALandmarkThatIsMissedTooOftenLeavesAndOneThatIsMissedNowAndThenS
     std::vector<LandmarkId> missed{fails};
     if (k % 3 == 0) missed.push_back(falters);
     std::erase_if(seen, [&](const Observation& each) { return std::ranges::count(missed, *each.id) > 0; });
-    drive.filter.missed(missed);
-    drive.note(drive.filter.correct(seen));
+    drive.note(drive.filter.correct(seen, missed));
     EXPECT_EQ(drive.gone.contains(fails), !drive.filter.map().find(fails));
   }
   EXPECT_TRUE(drive.gone.contains(fails));
@@ -361,7 +358,7 @@ TEST(PixelSlam, AMotionThatIsNoNumberAndNamesThatNobodyKnowsChangeNothing) {
   drive.filter.predict({{kNan, 0.0, 0.0}, Eigen::Matrix3d::Identity()});
   drive.filter.predict({{0.1, 0.0, 0.0}, kNan * Eigen::Matrix3d::Identity()});
   const LandmarkId nobody{LandmarkId::Family::kCorner, 9999};
-  drive.filter.missed({&nobody, 1});
+  drive.filter.correct({}, {&nobody, 1});
   EXPECT_EQ(drive.filter.map().state().mean(), before);
 }
 
@@ -399,8 +396,7 @@ TEST(PixelSlam, AStepAllocatesNothing) {
     const auto seen = drive.room.look_for(expected, drive.missed);
     const auto fresh = drive.room.look_for_new(3);
     const test::AllocationCount correcting;
-    drive.filter.missed(drive.missed);
-    drive.filter.correct(seen);
+    drive.filter.correct(seen, drive.missed);
     drive.filter.correct(fresh);
     (void)drive.filter.pose();
     allocations += correcting.allocations();
@@ -442,7 +438,7 @@ TEST(PixelSlam, APictureMayComeInSeveralParts) {
     whole.step();
     parts.filter.predict(parts.room.move());
     const auto seen = parts.room.look_for(parts.filter.expect(), parts.missed);
-    parts.filter.missed(parts.missed);
+    parts.filter.correct({}, parts.missed);
     for (std::size_t next = 0; next < seen.size(); next += 7) {
       const std::span<const Observation> part(&seen[next], std::min<std::size_t>(7, seen.size() - next));
       EXPECT_EQ(parts.filter.correct(part).innovations.size(), part.size());

@@ -230,7 +230,7 @@ TEST(FastSlam, RefusesWhatItCannotUseAndSaysWhy) {
   scan[0].value = RangeBearing{kNan, 0.0};
   scan[1].id.reset();
   scan[2].value = Pixel{1.0, 1.0};
-  scan[3].covariance.reset();
+  scan[3].covariance = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   scan[4].covariance = Eigen::Matrix2d::Zero();
   scan[6].id = LandmarkId{LandmarkId::Family::kMarker, 99};
   scan.push_back(world.sight(0));

@@ -12,7 +12,7 @@ lines=$(grep -cvE '^[[:space:]]*(//.*)?$' "$example")
 
 c++ -std=c++20 -I "$prefix/include" -isystem /usr/include/eigen3 -M "$example" >"$build/example.d"
 others=$(tr ' \\' '\n\n' <"$build/example.d" | grep '^/' | grep -vF "$prefix/include/waymark/" |
-  grep -vE "^(${example//./\\.}|/usr/include/(eigen3|hwy)/|/usr/include/(c\+\+|[a-z0-9_]+-linux-gnu|linux|asm[a-z-]*|bits|sys|gnu|pthread|[a-z_0-9]+\.h)|/usr/lib/gcc/)" || true)
+  grep -vE "^(${example//./\\.}|/usr/include/(eigen3|hwy)/|/usr/include/(c\+\+|[a-z0-9_]+-linux-gnu|linux|asm[a-z-]*|bits|sys|gnu|pthread|[a-z_0-9-]+\.h)|/usr/lib/gcc/)" || true)
 [ -z "$others" ] || { echo "includes what is not the engine's:"; echo "$others"; exit 1; }
 
 linked=$(ldd "$build/01_filter_in_your_loop" | awk '{print $1}' |

@@ -8,6 +8,8 @@ endif()
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/prefix")
 set(examples_build "${CMAKE_CURRENT_BINARY_DIR}/examples")
 
+# Without what an earlier version has installed.
+add_test(NAME examples.clean COMMAND "${CMAKE_COMMAND}" -E rm -rf "${prefix}")
 add_test(NAME examples.install COMMAND "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --prefix "${prefix}")
 # Nothing but Eigen and Highway is looked for where the engine alone is asked for, and nothing else is included or linked.
 set(engine_build "${CMAKE_CURRENT_BINARY_DIR}/engine")
@@ -15,8 +17,9 @@ set(hidden "")
 foreach(package IN ITEMS fmt yaml-cpp nlohmann_json ZLIB PNG JPEG BZip2 SQLite3 CLI11 OpenCV)
   list(APPEND hidden "-DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON")
 endforeach()
+string(REPLACE ";" "\\;" launcher "${CMAKE_CXX_COMPILER_LAUNCHER}")
 set(example_settings "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
-                     "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}")
+                     "-DCMAKE_CXX_COMPILER_LAUNCHER=${launcher}" "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}")
 add_test(NAME examples.engine.configure
          COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/examples" -B "${engine_build}" -G "${CMAKE_GENERATOR}"
                  ${example_settings} ${hidden} -DWITH_WORKBENCH=OFF)
@@ -41,11 +44,12 @@ add_test(NAME examples.configure
          COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/examples" -B "${examples_build}" -G "${CMAKE_GENERATOR}"
                  ${example_settings})
 add_test(NAME examples.build COMMAND "${CMAKE_COMMAND}" --build "${examples_build}")
-set_tests_properties(examples.install PROPERTIES FIXTURES_SETUP installed)
+set_tests_properties(examples.clean PROPERTIES FIXTURES_SETUP cleaned)
+set_tests_properties(examples.install PROPERTIES FIXTURES_REQUIRED cleaned FIXTURES_SETUP installed)
 set_tests_properties(examples.configure PROPERTIES FIXTURES_REQUIRED installed FIXTURES_SETUP configured)
 set_tests_properties(examples.build PROPERTIES FIXTURES_REQUIRED configured FIXTURES_SETUP examples)
 set_tests_properties(
-  examples.install examples.configure examples.build examples.engine.configure examples.engine.build
+  examples.clean examples.install examples.configure examples.build examples.engine.configure examples.engine.build
   examples.engine.needs_nothing_else examples.missing_component PROPERTIES LABELS examples)
 
 foreach(source IN LISTS examples)

@@ -25,5 +25,15 @@ TEST(ArticleTimes, OtherBlocksHaveNone) {
   EXPECT_FALSE(article_time("").has_value());
 }
 
+TEST(ArticleTimes, AreThoseOfItsOwnSystemOnly) {
+  const auto article = resolve_config({{WAYMARK_SOURCE_DIR "/configs/vincke2012.yaml"}, {}});
+  ASSERT_TRUE(article.ok()) << article.error().message;
+  EXPECT_TRUE(is_article_system(*article));
+  EXPECT_FALSE(is_article_system(Config{}));
+  const auto ours = resolve_config({{}, {"observe=pixel"}});
+  ASSERT_TRUE(ours.ok());
+  EXPECT_FALSE(is_article_system(*ours));
+}
+
 }  // namespace
 }  // namespace waymark

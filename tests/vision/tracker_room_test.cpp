@@ -107,19 +107,23 @@ Errors follow(Room& room, std::size_t images, std::size_t step, const Eigen::Mat
   Errors errors;
   for (std::size_t i = 0; i < images; i += step) {
     const GreyImage image = room.film.take(i);
-    tracker.begin(image, room.pose(i), points.expect(room.pose(i), S, random));
-    const Sightings sightings = tracker.match();
-    errors.found += static_cast<int>(sightings.found.size());
-    errors.missed += static_cast<int>(sightings.missed.size());
-    for (const Observation& seen : sightings.found) {
-      const Vector2d error = test::place_of(seen) - *points.pixel(*seen.id, room.pose(i));
-      errors.add(error, *seen.covariance);
-      errors.matches[*seen.id].push_back(
-          {error, room.camera.pose(room.pose(i)).p_world_camera - points.place(*seen.id)});
-    }
-    const auto innovations =
-        points.take(tracker.finish(), [&](const Vector2d& pixel) { return room.point_at(pixel, i); });
-    tracker.learn({innovations, {}});
+    std::vector<Innovation> innovations;
+    const auto correct = [&](Round round, const Sightings& sightings) {
+      if (round == Round::kCandidates) {
+        innovations = points.take(sightings, [&](const Vector2d& pixel) { return room.point_at(pixel, i); });
+        return Correction{innovations, {}};
+      }
+      errors.found += static_cast<int>(sightings.found.size());
+      errors.missed += static_cast<int>(sightings.missed.size());
+      for (const Observation& seen : sightings.found) {
+        const Vector2d error = test::place_of(seen) - *points.pixel(*seen.id, room.pose(i));
+        errors.add(error, *seen.covariance);
+        errors.matches[*seen.id].push_back(
+            {error, room.camera.pose(room.pose(i)).p_world_camera - points.place(*seen.id)});
+      }
+      return Correction{};
+    };
+    tracker.track(image, room.pose(i), points.expect(room.pose(i), S, random), correct);
   }
   return errors;
 }

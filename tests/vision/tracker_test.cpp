@@ -44,6 +44,23 @@ struct Wall {
   Camera camera;
 };
 
+/// What was seen in both rounds of a picture of which the filter takes nothing.
+struct Rounds {
+  std::vector<Observation> found, found_later;
+  std::vector<LandmarkId> missed, missed_later;
+};
+
+Rounds track(Tracker& tracker, const GreyImage& image, std::span<const Expectation> expectations) {
+  Rounds rounds;
+  tracker.track(image, Wall::pose(0), expectations, [&](Round round, const Sightings& seen) {
+    const bool first = round == Round::kLandmarks;
+    (first ? rounds.found : rounds.found_later).assign(seen.found.begin(), seen.found.end());
+    (first ? rounds.missed : rounds.missed_later).assign(seen.missed.begin(), seen.missed.end());
+    return Correction{};
+  });
+  return rounds;
+}
+
 /// A tracker that has begun to know the wall.
 struct Started {
   explicit Started(std::uint64_t seed, const TrackerOptions& options = {}, int threads = 1)
@@ -55,16 +72,16 @@ struct Started {
   std::vector<Observation> see(int step, bool candidates = false) {
     image = wall.picture(step);
     expectations = points.expect(Wall::pose(step), kS, wall.random, candidates);
-    tracker.begin(image, Wall::pose(step), expectations);
-    const Sightings matched = tracker.match();
-    std::vector<Observation> found(matched.found.begin(), matched.found.end());
-    missed.assign(matched.missed.begin(), matched.missed.end());
-    const Sightings finished = tracker.finish();
-    found.insert(found.end(), finished.found.begin(), finished.found.end());
-    missed.insert(missed.end(), finished.missed.begin(), finished.missed.end());
-    const auto innovations =
-        points.take(finished, [&](const auto& pixel) { return wall.point_at(pixel, step); });
-    tracker.learn({innovations, {}});
+    std::vector<Observation> found;
+    std::vector<Innovation> innovations;
+    missed.clear();
+    tracker.track(image, Wall::pose(step), expectations, [&](Round round, const Sightings& seen) {
+      found.insert(found.end(), seen.found.begin(), seen.found.end());
+      missed.insert(missed.end(), seen.missed.begin(), seen.missed.end());
+      if (round == Round::kCandidates)
+        innovations = points.take(seen, [&](const auto& pixel) { return wall.point_at(pixel, step); });
+      return Correction{innovations, {}};
+    });
     return found;
   }
 
@@ -108,32 +125,30 @@ TEST(Tracker, NamesEveryNewCornerAnew) {
   // Also where the map knows corners that the tracker does not.
   const std::vector<Expectation> foreign{{.id = {LandmarkId::Family::kCorner, 5000}}};
   Tracker fresh({}, {}, s.wall.camera, 1);
-  fresh.begin(s.image, Wall::pose(0), foreign);
-  EXPECT_TRUE(fresh.match().found.empty());
-  const Sightings sightings = fresh.finish();
-  ASSERT_FALSE(sightings.found.empty());
-  EXPECT_TRUE(sightings.missed.empty());
-  for (const Observation& seen : sightings.found) EXPECT_GT(seen.id->number, 5000);
+  const Rounds rounds = track(fresh, s.image, foreign);
+  EXPECT_TRUE(rounds.found.empty());
+  ASSERT_FALSE(rounds.found_later.empty());
+  EXPECT_TRUE(rounds.missed_later.empty());
+  for (const Observation& seen : rounds.found_later) EXPECT_GT(seen.id->number, 5000);
 }
 
 TEST(Tracker, ForgetsWhatTheFilterDidNotTakeOrDropped) {
   Wall wall(3);
   Tracker tracker({}, {}, wall.camera, 1);
   const GreyImage image = wall.picture(0);
-  tracker.begin(image, Wall::pose(0), {});
-  static_cast<void>(tracker.match());
-  const Sightings first = tracker.finish();
-  ASSERT_EQ(first.found.size(), 4U);
   test::KnownPoints points(wall.camera);
   std::vector<Innovation> innovations;
-  for (const Observation& seen : first.found) {
-    points.add(*seen.id, *wall.point_at(test::place_of(seen), 0));
-    innovations.push_back({*seen.id, innovations.empty() ? Outcome::kMapFull : Outcome::kAdded});
-  }
-  const std::vector<LandmarkId> removed{innovations[1].landmark};
-  tracker.learn({innovations, removed});
-  tracker.begin(image, Wall::pose(0), points.expect(Wall::pose(0), kS, wall.random));
-  const Sightings second = tracker.match();
+  std::vector<LandmarkId> removed;
+  tracker.track(image, Wall::pose(0), {}, [&](Round, const Sightings& seen) {
+    for (const Observation& corner : seen.found) {
+      points.add(*corner.id, *wall.point_at(test::place_of(corner), 0));
+      innovations.push_back({*corner.id, innovations.empty() ? Outcome::kMapFull : Outcome::kAdded});
+    }
+    if (innovations.size() > 1) removed = {innovations[1].landmark};
+    return Correction{innovations, removed};
+  });
+  ASSERT_EQ(innovations.size(), 4U);
+  const Rounds second = track(tracker, image, points.expect(Wall::pose(0), kS, wall.random));
   EXPECT_EQ(second.found.size(), 2U);
   EXPECT_TRUE(second.missed.empty());
 }
@@ -141,13 +156,14 @@ TEST(Tracker, ForgetsWhatTheFilterDidNotTakeOrDropped) {
 TEST(Tracker, DoesNotReportWhatWasDroppedMeanwhile) {
   Started s(4);
   const auto candidates = s.points.expect(Wall::pose(0), kS, s.wall.random, true);
-  s.tracker.begin(s.image, Wall::pose(0), candidates);
-  static_cast<void>(s.tracker.match());
   const std::vector<LandmarkId> removed{candidates.front().id};
-  s.tracker.learn({{}, removed});
-  const Sightings finished = s.tracker.finish();
-  EXPECT_FALSE(finished.found.empty());
-  for (const Observation& seen : finished.found) EXPECT_NE(*seen.id, removed.front());
+  std::vector<LandmarkId> found;
+  s.tracker.track(s.image, Wall::pose(0), candidates, [&](Round, const Sightings& seen) {
+    for (const Observation& each : seen.found) found.push_back(*each.id);
+    return Correction{{}, removed};
+  });
+  EXPECT_FALSE(found.empty());
+  for (const LandmarkId& id : found) EXPECT_NE(id, removed.front());
 }
 
 TEST(Tracker, MissesWhatIsNoLongerThere) {
@@ -155,10 +171,7 @@ TEST(Tracker, MissesWhatIsNoLongerThere) {
   Wall other(99);
   const GreyImage image = other.picture(0);
   const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
-  s.tracker.begin(image, Wall::pose(0), expectations);
-  const Sightings sightings = s.tracker.match();
-  EXPECT_GT(sightings.missed.size(), expectations.size() * 8 / 10);
-  static_cast<void>(s.tracker.finish());
+  EXPECT_GT(track(s.tracker, image, expectations).missed.size(), expectations.size() * 8 / 10);
 }
 
 TEST(Tracker, TakesAPictureThatShowsNothingForNoEvidence) {
@@ -168,11 +181,9 @@ TEST(Tracker, TakesAPictureThatShowsNothingForNoEvidence) {
   const std::vector<GreyImage> useless{GreyImage(320, 240, 0), GreyImage(320, 240, 255), dark,
                                        GreyImage(160, 120, 90), GreyImage()};
   for (const GreyImage& image : useless) {
-    s.tracker.begin(image, Wall::pose(0), expectations);
-    for (const Sightings& sightings : {s.tracker.match(), s.tracker.finish()}) {
-      EXPECT_TRUE(sightings.found.empty());
-      EXPECT_TRUE(sightings.missed.empty());
-    }
+    const Rounds rounds = track(s.tracker, image, expectations);
+    EXPECT_TRUE(rounds.found.empty() && rounds.found_later.empty());
+    EXPECT_TRUE(rounds.missed.empty() && rounds.missed_later.empty());
     EXPECT_EQ(number_of(s.tracker.looks(), Look::Result::kNotTried), static_cast<int>(expectations.size()));
   }
   EXPECT_EQ(s.tracker.counts().unusable, static_cast<std::int64_t>(useless.size()));
@@ -189,9 +200,7 @@ TEST(Tracker, SurvivesExpectationsThatAreNoNumbers) {
   expectations[3].p_world_m.setConstant(nan);
   expectations[4].predicted_px = {1e12, -1e12};
   expectations[5].S.setZero();
-  s.tracker.begin(s.image, Wall::pose(0), expectations);
-  EXPECT_GE(s.tracker.match().found.size(), expectations.size() - 7);
-  static_cast<void>(s.tracker.finish());
+  EXPECT_GE(track(s.tracker, s.image, expectations).found.size(), expectations.size() - 7);
 }
 
 TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
@@ -204,9 +213,7 @@ TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
   std::int64_t before = s.tracker.counts().out_of_budget;
   for (const int left_us : {0, 10, 50, 100, 200, 5000}) {
     s.tracker.leave_time(all - std::chrono::microseconds(left_us));
-    s.tracker.begin(s.image, Wall::pose(0), std::vector(expectations.rbegin(), expectations.rend()));
-    static_cast<void>(s.tracker.match());
-    static_cast<void>(s.tracker.finish());
+    track(s.tracker, s.image, std::vector(expectations.rbegin(), expectations.rend()));
     std::vector<Look> looks(s.tracker.looks().begin(), s.tracker.looks().begin() + std::ssize(expectations));
     std::ranges::reverse(looks);
     const int tried = static_cast<int>(looks.size()) - number_of(looks, Look::Result::kNotTried);
@@ -297,13 +304,14 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
     taken.reserve(100);
     const test::AllocationCount count;
     for (std::size_t k = 0; k < images.size(); ++k) {
-      s.tracker.begin(images[k], Wall::pose(static_cast<int>(k)), expectations[k]);
-      EXPECT_FALSE(s.tracker.match().found.empty());
-      const Sightings finished = s.tracker.finish();
-      EXPECT_FALSE(finished.found.empty());
-      taken.clear();
-      for (const Observation& seen : finished.found) taken.push_back({*seen.id, Outcome::kAdded});
-      s.tracker.learn({taken, {}});
+      s.tracker.track(images[k], Wall::pose(static_cast<int>(k)), expectations[k],
+                      [&](Round, const Sightings& seen) {
+                        EXPECT_FALSE(seen.found.empty());
+                        taken.clear();
+                        for (const Observation& each : seen.found)
+                          taken.push_back({*each.id, Outcome::kAdded});
+                        return Correction{taken, {}};
+                      });
     }
     EXPECT_EQ(count.allocations(), 0) << threads;
   }
@@ -343,10 +351,7 @@ TEST(Tracker, WatchesTheClock) {
   const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
   const auto found_in = [&](Duration others) {
     s.tracker.leave_time(others);
-    s.tracker.begin(s.image, Wall::pose(0), expectations);
-    const std::size_t found = s.tracker.match().found.size();
-    static_cast<void>(s.tracker.finish());
-    return found;
+    return track(s.tracker, s.image, expectations).found.size();
   };
   EXPECT_GT(found_in(Duration{0}), expectations.size() / 2);  // 25 ms are plenty
   EXPECT_EQ(found_in(std::chrono::milliseconds(30)), 0U);

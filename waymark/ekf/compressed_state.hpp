@@ -55,6 +55,8 @@ class CompressedState {
   void hold_landmarks() { active_.hold_landmarks(); }
   /// All landmarks together are the first region: there must be that many before the onset.
   void load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P);
+  /// Landmarks that load() may bring.
+  [[nodiscard]] int most_loaded() const { return active_.capacity(); }
   /// Motions that depend on lasting errors are for maps that are never compressed.
   void predict(const Motion& motion, const ErrorTerms& errors = {});
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return active_.errors(pair); }

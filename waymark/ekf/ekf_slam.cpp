@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "waymark/core/gaussian.hpp"
+#include "waymark/core/text.hpp"
 #include "waymark/ekf/negligible_change.hpp"
 #include "waymark/models/observation_models.hpp"
 
@@ -104,6 +105,8 @@ EkfSlam::EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int th
 Result<void> EkfSlam::load(const MapState& map) {
   if (auto fits = check_fits(map, 2, options_.capacity); !fits) return fits;
   if (!landmarks_.empty()) return Error{"map: a filter takes one only before anything else"};
+  if (std::ssize(map.ids) > state_.most_loaded())
+    return Error{concat("map: ", map.ids.size(), " landmarks, but EkfOptions::loaded is ", options_.loaded)};
   state_.load(mean_of(map), map.covariance);
   for (std::size_t i = 0; i < map.ids.size(); ++i) {
     const auto landmark = static_cast<int>(i);

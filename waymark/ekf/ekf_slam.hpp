@@ -26,8 +26,8 @@ namespace waymark {
 /// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
 [[nodiscard]] ekf::Compression compression(const EkfOptions& options);
 
-/// EKF-SLAM (Vincke et al. 2012, section 2) over range-bearing sightings of 2-D landmarks, gated one by one;
-/// a first sighting adds its landmark, in the place of the least useful one when the map is full.
+/// EKF-SLAM (Vincke et al. 2012 \cite vincke2012) over range-bearing sightings of 2-D landmarks, gated one by
+/// one; a first sighting adds its landmark, in the place of the least useful one when the map is full.
 ///
 /// Ranges alone, or bearings alone, need identities. A landmark that is seen so is not in the state before
 /// several views of it, each with the place that it was seen from as points of the state, leave one position
@@ -54,7 +54,8 @@ class EkfSlam final : public Filter {
   [[nodiscard]] Result<void> load(const MapState& map);
 
   /// From now on the landmarks stay as they are and no others are added: what they are unsure of is
-  /// considered (Schmidt 1966), and only the pose and the sensor's lasting errors are estimated.
+  /// considered (Schmidt 1966 \cite schmidt1966), and only the pose and the sensor's lasting errors are
+  /// estimated.
   void hold_landmarks();
 
   /// Puts the robot somewhere else, as sure of it as the covariance says.

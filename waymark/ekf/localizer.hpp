@@ -14,7 +14,7 @@ namespace waymark {
 /// It starts anywhere: what is seen is remembered in the robot's frame until enough of it stands as the map
 /// has it (find_pose()). That tells where to linearise; what is known of the pose then comes from an update
 /// with all that is remembered, so that pose and map are correlated as they should be. From there on it is
-/// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966).
+/// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966 \cite schmidt1966).
 ///
 /// A robot whose sightings contradict the map for long is searched for anew. Where twenty sightings give no
 /// pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the map.

@@ -323,7 +323,7 @@ void PixelSlam::expect_candidate(const Candidate& candidate) {
   expectations_.push_back(expected);
 }
 
-void PixelSlam::missed(std::span<const LandmarkId> landmarks) {
+void PixelSlam::miss(std::span<const LandmarkId> landmarks) {
   for (const LandmarkId id : landmarks) {
     if (const auto feature = map_.find(id))
       management_.missed(*feature);
@@ -332,7 +332,9 @@ void PixelSlam::missed(std::span<const LandmarkId> landmarks) {
   }
 }
 
-const Correction& PixelSlam::correct(std::span<const Observation> observations) {
+const Correction& PixelSlam::correct(std::span<const Observation> observations,
+                                     std::span<const LandmarkId> missed) {
+  miss(missed);
   BlockTimer timer(blocks_, PixelBlock::kJacobians);
   if (!in_picture_) begin_picture();
   innovations_.assign(observations.size(), {});

@@ -18,9 +18,10 @@
 
 namespace waymark {
 
-/// EKF-SLAM over the pixels of points in space (Vincke et al. 2012). It sees no image: who looks for its
-/// landmarks asks expect() where to look, and reports what it found (correct()) and what not (missed()).
-/// A pixel with an identity that is not known begins a candidate, whose distance later pixels find out.
+/// EKF-SLAM over the pixels of points in space (Vincke et al. 2012 \cite vincke2012). It sees no image: who
+/// looks for its landmarks asks expect() where to look, and reports what it found (correct()) and what not
+/// (missed()). A pixel with an identity that is not known begins a candidate, whose distance later pixels
+/// find out.
 class PixelSlam final : public Filter {
  public:
   /// `threads` share updates of large maps; the result does not depend on them. Takes all its memory here.
@@ -35,11 +36,13 @@ class PixelSlam final : public Filter {
   /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
   /// once per picture. Valid until the next call of anything that changes the filter.
   [[nodiscard]] std::span<const Expectation> expect();
-  /// Looked for where it was expected, and not found.
-  void missed(std::span<const LandmarkId> landmarks);
-  /// Pixel observations; may be called several times per picture. Correction::removed names those (landmarks
-  /// and candidates) that nobody needs to look for any more since the picture began.
-  const Correction& correct(std::span<const Observation> observations) override;
+  /// Pixels that were found, and who was looked for where it was expected and not found; may be called
+  /// several times per picture. Correction::removed names those (landmarks and candidates) that nobody needs
+  /// to look for any more since the picture began.
+  const Correction& correct(std::span<const Observation> found, std::span<const LandmarkId> missed);
+  const Correction& correct(std::span<const Observation> observations) override {
+    return correct(observations, {});
+  }
   [[nodiscard]] PoseEstimate pose() const override { return map_.state().pose(); }
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
@@ -78,6 +81,7 @@ class PixelSlam final : public Filter {
   };
 
   void begin_picture();
+  void miss(std::span<const LandmarkId> landmarks);
   using PixelJacobian = Eigen::Matrix<double, 2, 3>;  ///< d(u, v)/d(point in the camera frame)
   [[nodiscard]] ekf::ErrorTerms vibration(const Eigen::Vector3d& p_camera, const PixelJacobian& J) const;
   [[nodiscard]] Eigen::Matrix2d model_noise() const;

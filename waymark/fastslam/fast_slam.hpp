@@ -25,9 +25,10 @@
 
 namespace waymark {
 
-/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003) over sightings of 2-D landmarks, with identities or
-/// without, by range and bearing, range alone or bearing alone. Motion is collected until something is seen,
-/// then every particle draws from it. docs/fastslam.md has the equations.
+/// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003 \cite montemerlo2002 \cite montemerlo2003) over
+/// sightings of 2-D landmarks, with identities or without, by range and bearing, range alone or bearing
+/// alone. Motion is collected until something is seen, then every particle draws from it. docs/fastslam.md
+/// has the equations.
 ///
 /// Given a particle's path the pose of a first sighting is exactly known. So a landmark of which only the
 /// bearing is known is kept as direction and inverse distance from there, one of which only the range is
@@ -38,8 +39,8 @@ namespace waymark {
 /// * A sighting weighs particles by how much news it brings: with the power 1 - exp(-w / evidence_way_m) of
 ///   its likelihood, w the way since that landmark was last seen. A landmark under watch says little about
 ///   where the path as a whole went, and its errors are alike from frame to frame; weights that count every
-///   frame in full make the set forget its own past by resampling (Bailey, Nieto, Nebot 2006) long before a
-///   loop closes.
+///   frame in full make the set forget its own past by resampling long before a loop closes (Bailey, Nieto,
+///   Nebot 2006 \cite bailey2006fastslam).
 /// * An observation is gated by the whole set, not particle by particle. A set that refuses several in a row
 ///   is itself what is wrong, and has to accept again.
 /// * Weights never collapse onto a few particles: they are flattened to keep `temper_below` effective.

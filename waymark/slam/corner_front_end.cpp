@@ -22,29 +22,24 @@ bool CornerFrontEnd::fits(const ImageView& image) const {
 
 const Correction& CornerFrontEnd::see(const ImageView& image) {
   innovations_.clear();
-  begin(image);
-  correct(tracker_.match());  // Vincke Algorithm 1
-  const Correction& last = correct(tracker_.finish());
-  correction_ = {innovations_, last.removed};
-  leave_time();
-  return correction_;
-}
-
-void CornerFrontEnd::begin(const ImageView& image) {
   stopwatch_.start();
   const auto expectations = filter_.expect();
   filter_took_ = stopwatch_.stop();
-  tracker_.begin(image, filter_.pose().T_world_robot, expectations);
+  // Vincke Algorithm 1
+  tracker_.track(
+      image, filter_.pose().T_world_robot, expectations,
+      [this](vision::Round, const vision::Sightings& seen) -> const Correction& { return correct(seen); });
+  leave_time();
+  return correction_;
 }
 
 /// One round.
 const Correction& CornerFrontEnd::correct(const vision::Sightings& sightings) {
   stopwatch_.start();
-  filter_.missed(sightings.missed);
-  const Correction& correction = filter_.correct(sightings.found);
+  const Correction& correction = filter_.correct(sightings.found, sightings.missed);
   filter_took_ += stopwatch_.stop();
   innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
-  tracker_.learn(correction);
+  correction_ = {innovations_, correction.removed};
   return correction;
 }
 

@@ -37,7 +37,6 @@ class CornerFrontEnd final : public FrontEnd {
   void remember(std::span<const LandmarkPatch> patches) { tracker_.remember(patches); }
 
  private:
-  void begin(const ImageView& image);
   const Correction& correct(const vision::Sightings& sightings);
   void leave_time();
 

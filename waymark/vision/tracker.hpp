@@ -29,8 +29,11 @@ struct Sightings {
   std::span<const LandmarkId> missed;
 };
 
+/// What is looked for at a time: new corners and candidates at the pose that the landmarks have corrected.
+enum class Round { kLandmarks, kCandidates };
+
 /// The camera front end: remembers what landmarks look like, looks for them where they are expected, and
-/// proposes new corners where the picture has none. Per picture begin(), match(), finish(), learn().
+/// proposes new corners where the picture has none. Per picture one call of track().
 ///
 /// A picture that shows nothing (is_usable()) has no sightings, and nothing counts as missed in it. Without
 /// new landmarks nothing is allocated from the first picture on, nor with them up to VisualMemory::kRoom.
@@ -40,18 +43,20 @@ class Tracker {
   /// the same. Half a ms.
   Tracker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera, int threads);
 
-  /// Starts on a picture, taken at the expected pose; it must stay where it is until finish(). Expectations
-  /// are copied.
-  void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
-  /// The landmarks: those that tell most for their cost first, within the budget.
-  [[nodiscard]] Sightings match();
-  /// The candidates, and new corners under new identities. A new corner is the pixel around which its patch
-  /// is cut, so its own place is certain by definition; it claims kLeastPixelSigma, for what later matches
-  /// against this patch have in common.
-  [[nodiscard]] Sightings finish();
-  /// Forgets what the filter dropped and what of finish() it did not take. May also be called before
-  /// finish(), for what it made of match().
-  void learn(const Correction& correction);
+  /// Looks into a picture, taken at the expected pose: for the landmarks, those that tell most for their cost
+  /// first, within the budget; then for the candidates, and for new corners under new identities. Both times
+  /// correct(round, sightings) says what the filter made of it, as a Correction; what it dropped, and what it
+  /// did not take of the second round, is forgotten. Sightings are valid during that call only.
+  ///
+  /// A new corner is the pixel around which its patch is cut, so its own place is certain by definition; it
+  /// claims kLeastPixelSigma, for what later matches against this patch have in common.
+  template <class Correct>
+  void track(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations,
+             const Correct& correct) {
+    begin(image, T_world_robot, expectations);
+    learn(correct(Round::kLandmarks, match()));
+    learn(correct(Round::kCandidates, finish()));
+  }
 
   /// What landmarks and candidates look like. Allocates.
   [[nodiscard]] std::vector<LandmarkPatch> patches() const { return memory_.patches(); }
@@ -62,7 +67,7 @@ class Tracker {
   /// How much of the frame's budget others need.
   void leave_time(Duration others) { others_ = others; }
 
-  /// Every expectation in its order, then the new corners. Valid from finish() to begin().
+  /// Every expectation in its order, then the new corners, of the last picture.
   [[nodiscard]] std::span<const Look> looks() const { return looks_; }
   [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
   [[nodiscard]] const FunctionBlocks& blocks() const { return blocks_; }
@@ -81,6 +86,10 @@ class Tracker {
     [[nodiscard]] Sightings sightings() const { return {found, missed}; }
   };
 
+  void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
+  [[nodiscard]] Sightings match();
+  [[nodiscard]] Sightings finish();
+  void learn(const Correction& correction);
   void copy(std::span<const Expectation> expectations);
   void avoid(LandmarkId id);
   void look_behind();

@@ -18,6 +18,12 @@ constexpr std::array kTimes{
 
 }  // namespace
 
+bool is_article_system(const Config& config) {
+  return config.observe == Observe::kPixel && config.ekf.update == UpdateMethod::kTextbook &&
+         config.pixel.init == ekf::Initialization::kArticle &&
+         config.search.match == vision::MatchScore::kArticle;
+}
+
 std::optional<ArticleTime> article_time(std::string_view block_name) {
   const auto number = block_name.substr(0, block_name.find(' '));
   const auto found = std::ranges::find(kTimes, number, &ArticleTime::block);

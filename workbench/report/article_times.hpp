@@ -3,6 +3,8 @@
 #include <optional>
 #include <string_view>
 
+#include "workbench/run/config.hpp"
+
 namespace waymark {
 
 /// What a function block took in the article (Vincke, Elouardi, Lambert 2012, table 2; FB1 from its text): on
@@ -13,6 +15,9 @@ struct ArticleTime {
   double calls_per_frame = 0.0;
   double per_frame_us = 0.0;
 };
+
+/// Whether a run is of the article's system, as configs/vincke2012.yaml sets it.
+[[nodiscard]] bool is_article_system(const Config& config);
 
 /// The published time of a block whose name begins with its number, as "FB2 corners".
 [[nodiscard]] std::optional<ArticleTime> article_time(std::string_view block_name);

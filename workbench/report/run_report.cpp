@@ -114,7 +114,8 @@ StepSeries steps_of(const Recording& recording, const Clock& clock) {
   return series;
 }
 
-std::vector<ReportedBlock> blocks_of(const Metrics& metrics) {
+/// The times that the article published are shown beside those of its own system only.
+std::vector<ReportedBlock> blocks_of(const Metrics& metrics, const Config& config) {
   std::vector<ReportedBlock> blocks;
   for (const auto& row : metrics.blocks) {
     const double total_us = micros(row.total);
@@ -123,7 +124,7 @@ std::vector<ReportedBlock> blocks_of(const Metrics& metrics) {
                       row.calls > 0 ? total_us / static_cast<double>(row.calls) : 0.0,
                       metrics.frames > 0 ? total_us / static_cast<double>(metrics.frames) : 0.0,
                       {}});
-    if (const auto article = article_time(row.name))
+    if (const auto article = article_time(row.name); article && is_article_system(config))
       blocks.back().article_per_frame_us = article->per_frame_us;
   }
   return blocks;
@@ -174,7 +175,7 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.errors = errors_of(result, clock);
   run.innovations = innovations_of(result.recording, clock);
   run.steps = steps_of(result.recording, clock);
-  run.blocks = blocks_of(result.metrics);
+  run.blocks = blocks_of(result.metrics, result.config);
   run.film = film_of(result.recording, clock);
   run.metrics_json = to_json(result.metrics);
   run.notes = result.recording.notes;
