@@ -4,13 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "waymark/association/gate.hpp"
 #include "waymark/core/expectation.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/agreement.hpp"
 #include "waymark/ekf/depth_particles.hpp"
-#include "waymark/ekf/ekf_slam.hpp"
 #include "waymark/ekf/map_management.hpp"
 #include "waymark/ekf/pixel_map.hpp"
 #include "waymark/ekf/pixel_slam_options.hpp"
