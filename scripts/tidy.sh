@@ -17,7 +17,7 @@ mkdir -p "$cache"
 # check FILE: prints the findings as file:line: [check] text, and fails where there are any.
 check() {
   if grep -q '^#define HWY_TARGET_INCLUDE' "$1"; then
-    clang-tidy-16 --quiet --extra-arg=-Wno-unknown-warning-option -p "$commands" "$1" 2>/dev/null
+    clang-tidy-16 --quiet --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unused-command-line-argument -p "$commands" "$1" 2>/dev/null
   else
     clangd-16 --check="$1" --check-lines=1-1 --compile-commands-dir="$commands" --log=error 2>&1 |
       sed -E "s|^E\[[0-9:.]+\] \[([^]]*)\] Line ([0-9]+):|$1:\2: [\1]|"
