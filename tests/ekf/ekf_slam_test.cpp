@@ -10,6 +10,7 @@
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
+#include "support/missing_covariances.hpp"
 #include "waymark/core/chi2.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/core/random.hpp"
@@ -412,17 +413,7 @@ TEST(EkfSlam, ObservationsWithoutCovarianceHaveTheNoiseOfTheSensor) {
   sensor.range_sigma_m = 0.05;
   sensor.bearing_sigma_deg = to_degrees(0.02);
   EkfSlam told({.capacity = 20}, sensor), silent({.capacity = 20}, sensor);
-  for (int i = 0; i < 30; ++i) {
-    const Motion motion = world.move();
-    std::vector<Observation> scan = world.look();
-    for (EkfSlam* each : {&told, &silent}) each->predict(motion);
-    for (Observation& each : scan) each.covariance = noise_covariance(sensor, each.value);
-    told.correct(scan);
-    for (Observation& each : scan) each.covariance.reset();
-    EXPECT_EQ(silent.correct(scan).count(Outcome::kUnusable), 0);
-  }
-  EXPECT_EQ(silent.pose().T_world_robot, told.pose().T_world_robot);
-  EXPECT_EQ(silent.pose().covariance, told.pose().covariance);
+  test::expect_the_noise_of_the_sensor(told, silent, world, sensor);
 }
 
 TEST(EkfSlam, AMapThatDoesNotFitChangesNothing) {

@@ -15,6 +15,7 @@
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
+#include "support/missing_covariances.hpp"
 #include "waymark/core/gaussian.hpp"
 #include "waymark/fastslam/resampling.hpp"
 
@@ -624,17 +625,7 @@ TEST(FastSlam, ObservationsWithoutCovarianceHaveTheNoiseOfTheSensor) {
   CircleWorld world(23);
   const LandmarkSensor sensor = world.sensor();
   FastSlam told({}, sensor), silent({}, sensor);
-  for (int i = 0; i < 30; ++i) {
-    const Motion motion = world.move();
-    std::vector<Observation> scan = world.look();
-    for (FastSlam* each : {&told, &silent}) each->predict(motion);
-    for (Observation& each : scan) each.covariance = noise_covariance(sensor, each.value);
-    told.correct(scan);
-    for (Observation& each : scan) each.covariance.reset();
-    EXPECT_EQ(silent.correct(scan).count(Outcome::kUnusable), 0);
-  }
-  EXPECT_EQ(silent.pose().T_world_robot, told.pose().T_world_robot);
-  EXPECT_EQ(silent.pose().covariance, told.pose().covariance);
+  test::expect_the_noise_of_the_sensor(told, silent, world, sensor);
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ TEST(MarkerFrontEnd, TakesCornersThatOthersFound) {
       (*markers::make_marker_detector(markers::marker_set(marker_options())->dictionary))
           ->detect(picture->view());
   std::ranges::reverse(outlines);
-  const auto told = observed(front_end->see(outlines));
+  const auto told = front_end->see(outlines);
   ASSERT_EQ(told.size(), seen.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(told[i].id, seen[i].id);
@@ -158,7 +158,7 @@ TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
   options.sizes_m = "3: 0.2";
   const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
   const MarkerOutline square{5, {{{100.0, 100.0}, {150.0, 100.0}, {150.0, 150.0}, {100.0, 150.0}}}};
-  EXPECT_THAT(observed(front_end->see(MarkerOutlines{square})), IsEmpty());
+  EXPECT_THAT(front_end->see(MarkerOutlines{square}), IsEmpty());
   EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("nobody said how large")));
 }
 

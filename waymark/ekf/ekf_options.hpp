@@ -26,12 +26,6 @@ struct UnknownAssociation {
   AssociationOptions options;
 };
 
-/// How updates of the camera's filter are computed.
-enum class UpdateMethod {
-  kFast,     ///< only what H touches, as P -= W^T W
-  kTextbook  ///< with dense matrices and plain loops, to compare with: needs Consistency::kStandard
-};
-
 /// Whether the map outside of the robot's region is left alone for the time being.
 enum class Compress { kAuto, kAlways, kNever };
 
@@ -42,7 +36,6 @@ struct EkfOptions {
   Compress compressed = Compress::kAuto;
   int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;
-  UpdateMethod update = UpdateMethod::kFast;
   OdometryStateOptions odometry;  ///< with which a map is not compressed
   int region = 64;                ///< landmarks of a compressed map that are kept up to date at every step
   int loaded = 0;  ///< landmarks that load() will bring: they are the first region of a compressed map

@@ -89,9 +89,8 @@ void Localizer::predict(const Motion& motion) {
   for (SeenLandmark& seen : memory_) move(seen, motion);
 }
 
-const Correction& Localizer::correct(std::span<const Observation> given) {
-  const std::span<const Observation> observations = completed_.of(given);
-  if (!located_) return look_around(observations);
+const Correction& Localizer::correct(std::span<const Observation> observations) {
+  if (!located_) return look_around(completed_.of(observations));
   const Correction& correction = ekf_.correct(observations);
   judge(correction);
   return correction;

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/depth_prior.hpp"
-#include "waymark/ekf/ekf_options.hpp"
+#include "waymark/ekf/eviction.hpp"
 
 namespace waymark {
 
@@ -15,6 +16,12 @@ enum class Initialization {
 };
 
 }  // namespace ekf
+
+/// How updates are computed.
+enum class UpdateMethod {
+  kFast,     ///< only what H touches, as P -= W^T W
+  kTextbook  ///< with dense matrices and plain loops, to compare with: needs Consistency::kStandard
+};
 
 struct PixelSlamOptions {
   int capacity = 100;                ///< most landmarks in the map

@@ -144,13 +144,13 @@ FrontEnd::Seen MarkerFrontEnd::see(const Picture& picture) {
   return std::span<const Observation>(sightings_);
 }
 
-FrontEnd::Seen MarkerFrontEnd::see(const MarkerOutlines& outlines) {
+std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines) {
   BlockTimer timer(blocks_, 1);
   measure(outlines);
   refuse_duplicates();
   hold_back_new();
   timer.finish(1);
-  return std::span<const Observation>(sightings_);
+  return sightings_;
 }
 
 void MarkerFrontEnd::measure(const Picture& picture, std::span<const markers::Marker> found) {

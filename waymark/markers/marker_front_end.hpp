@@ -87,7 +87,7 @@ class MarkerFrontEnd final : public FrontEnd {
 
   /// The markers in a picture, each identity once.
   Seen see(const Picture& picture) override;
-  Seen see(const MarkerOutlines& outlines) override;
+  std::span<const Observation> see(const MarkerOutlines& outlines) override;
 
   [[nodiscard]] std::span<const FunctionBlocks::Row> blocks() const override { return blocks_.rows(); }
   [[nodiscard]] std::vector<std::string> notes(std::span<const Innovation> innovations) const override;

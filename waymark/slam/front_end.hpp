@@ -44,8 +44,8 @@ class FrontEnd {
 
   /// Looks into a picture that fits, taken at the pose that the filter has reached.
   virtual Seen see(const Picture& picture) = 0;
-  /// The same where another program has looked.
-  virtual Seen see(const MarkerOutlines& /*outlines*/) { return std::span<const Observation>(); }
+  /// The observations where another program has looked. Valid until the next call.
+  virtual std::span<const Observation> see(const MarkerOutlines& /*outlines*/) { return {}; }
 
   /// Times of its own function blocks.
   [[nodiscard]] virtual std::span<const FunctionBlocks::Row> blocks() const = 0;

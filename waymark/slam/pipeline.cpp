@@ -163,7 +163,7 @@ void Pipeline::process_front_group() {
     } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
       ++counts_.outlines;
       ++counts_.pictures;
-      collect_seen(std::get<std::span<const Observation>>(front_end_->see(*outlines)));
+      collect_seen(front_end_->see(*outlines));
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
     } else {

@@ -36,20 +36,16 @@ class Reader {
     if (const auto* observations = std::get_if<Observations>(&content)) return add(*observations, true);
     if (markers_ == nullptr) return;
     if (const auto* outlines = std::get_if<MarkerOutlines>(&content))
-      return add(seen(markers_->see(*outlines)), false);
+      return add(markers_->see(*outlines), false);
     const auto* image = std::get_if<Image>(&content);
     if (image == nullptr || !image->pixels || !markers_->fits(*image->pixels)) return;
     markers_->announce(image->pixels);
-    add(seen(markers_->see(image->pixels)), false);
+    add(std::get<std::span<const Observation>>(markers_->see(image->pixels)), false);
   }
 
   [[nodiscard]] Shown result() && { return std::move(shown_); }
 
  private:
-  static std::span<const Observation> seen(const FrontEnd::Seen& seen) {
-    return std::get<std::span<const Observation>>(seen);
-  }
-
   void add(std::span<const Observation> observations, bool as_reported) {
     ++shown_.scans;
     for (const Observation& each : observations) {

@@ -38,10 +38,6 @@ void describe(Schema& schema, EkfOptions& options) {
   schema.choice(
       "ekf.likelihood", options.likelihood, {"gaussian", "student"},
       "student: heavy tails, for outliers that no gate finds; takes up to 3 iterations in any case");
-  schema.choice(
-      "ekf.update", options.update, {"fast", "textbook"},
-      "textbook: of pixels, with dense matrices and plain loops as in the article, to compare with; "
-      "needs ekf.consistency=standard");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
                 "whether a large map is updated region by region, at the cost of a small one; auto: once it "
                 "is large enough to gain");
@@ -97,6 +93,10 @@ void describe(Schema& schema, PixelSlamOptions& options) {
       "many pictures it is given up");
   schema.real("pixel.depth_ratio", options.depth_ratio, {1e-3, 1.0},
               "sigma of the depth over the depth below which a candidate is accepted");
+  schema.choice(
+      "ekf.update", options.update, {"fast", "textbook"},
+      "textbook: of pixels, with dense matrices and plain loops as in the article, to compare with; "
+      "needs ekf.consistency=standard");
 }
 
 void describe(Schema& schema, FastSlamOptions& o) {

@@ -19,7 +19,7 @@ constexpr std::array kTimes{
 }  // namespace
 
 bool is_article_system(const Config& config) {
-  return config.observe == Observe::kPixel && config.ekf.update == UpdateMethod::kTextbook &&
+  return config.observe == Observe::kPixel && config.pixel.update == UpdateMethod::kTextbook &&
          config.pixel.init == ekf::Initialization::kArticle &&
          config.search.match == vision::MatchScore::kArticle;
 }

@@ -38,7 +38,6 @@ Result<FilterSystem> make_pixel_ekf(const Config& config, const std::optional<Ma
   PixelSlamOptions options = config.pixel;
   options.consistency = config.ekf.consistency;
   options.evict = config.ekf.evict;
-  options.update = config.ekf.update;
   auto filter = std::make_unique<PixelSlam>(options, config.camera, config.threads);
   auto front_end = std::make_unique<CornerFrontEnd>(*filter, config.tracker, config.search,
                                                     Camera(config.camera), config.threads);
@@ -54,7 +53,7 @@ Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
   if (config.associate != Association::kKnown && !tells_place(config.observe))
     return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
-  if (config.ekf.update == UpdateMethod::kTextbook &&
+  if (config.pixel.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
   if (config.ekf.odometry.estimate &&
@@ -80,6 +79,11 @@ Result<FilterSystem> make_fastslam(const Config& config) {
   options.seed = config.seed;
   if (by_likelihood) options.unknown = config.association;
   return FilterSystem{std::make_unique<FastSlam>(options, config.sensor, config.threads), nullptr};
+}
+
+/// Without what finds markers.
+Result<FilterSystem> make_without_markers(const Config& config, const std::optional<MapState>& start) {
+  return config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
 }
 
 }  // namespace
@@ -112,7 +116,7 @@ Result<std::unique_ptr<FrontEnd>> make_marker_front_end(const Config& config) {
 }
 
 Result<FilterSystem> make_filter_system(const Config& config, const std::optional<MapState>& start) {
-  auto system = config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
+  auto system = make_without_markers(config, start);
   if (!system || config.observe != Observe::kMarkers) return system;
   auto markers = make_marker_front_end(config);
   if (!markers) return markers.error();
@@ -123,7 +127,7 @@ Result<FilterSystem> make_filter_system(const Config& config, const std::optiona
 Result<std::unique_ptr<Filter>> make_filter(const Config& config) {
   const auto start = read_start_map(config);
   if (!start) return start.error();
-  auto system = make_filter_system(config, *start);
+  auto system = make_without_markers(config, *start);
   if (!system) return system.error();
   return std::move(system->filter);
 }

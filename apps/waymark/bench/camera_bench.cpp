@@ -11,7 +11,7 @@
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"
 
-#include "article_config.hpp"
+#include "workbench/datasets/known_settings.hpp"
 #include "workbench/eval/median.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/report/article_times.hpp"
@@ -117,7 +117,9 @@ Recording run(const Drive& drive, const Config& config) {
 
 Config article_mode(const Drive& drive) {
   Config config = drive.config;
-  (void)describe(config).load_text(kArticleConfig, "configs/vincke2012.yaml");
+  Schema schema = describe(config);
+  const auto settings = known_settings("vincke2012");
+  for (const auto& [key, value] : *settings) (void)schema.set(key, value, "configs/vincke2012.yaml");
   return config;
 }
 

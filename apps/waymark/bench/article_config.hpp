@@ -1,8 +1,0 @@
-#pragma once
-
-namespace waymark::app {
-
-/// The text of configs/vincke2012.yaml.
-extern const char* const kArticleConfig;
-
-}  // namespace waymark::app
