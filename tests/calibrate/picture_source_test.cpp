@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "support/io_support.hpp"
+
 #include "workbench/logs/image_file.hpp"
 
 namespace waymark::calibrate {
@@ -14,15 +16,12 @@ namespace fs = std::filesystem;
 class PictureSourceTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "waymark_picture_source_test";
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "none");
     for (const char* name : {"b1.png", "a2.png", "a1.PNG"})
       ASSERT_TRUE(write_png(folder_ / name, GreyImage(20, 10, 50)));
     std::ofstream(folder_ / "c.jpg") << "\xFF\xD8 cut off";
     std::ofstream(folder_ / "notes.txt") << "not a picture";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   static std::vector<std::string> names(const std::vector<std::string>& inputs) {
     std::vector<std::string> all;
@@ -33,7 +32,8 @@ class PictureSourceTest : public testing::Test {
     return all;
   }
 
-  fs::path folder_;
+  test::TempFolder temp_;
+  fs::path folder_ = temp_.path();
 };
 
 TEST_F(PictureSourceTest, FoldersPatternsAndFiles) {

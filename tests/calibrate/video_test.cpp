@@ -1,16 +1,16 @@
 #include "workbench/calibrate/video.hpp"
 
-#include <filesystem>
-#include <fstream>
-
 #include <gtest/gtest.h>
 #include <opencv2/videoio.hpp>
+
+#include "support/io_support.hpp"
 
 namespace waymark::calibrate {
 namespace {
 
 TEST(Video, GivesFiveFramesASecondInGrey) {
-  const auto path = std::filesystem::temp_directory_path() / "waymark_video_test.avi";
+  const test::TempFolder folder;
+  const auto path = folder.path() / "video.avi";
   cv::VideoWriter writer(path.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
                          25.0, {160, 120});
   ASSERT_TRUE(writer.isOpened());
@@ -30,16 +30,14 @@ TEST(Video, GivesFiveFramesASecondInGrey) {
   }
   EXPECT_EQ(frames, 10);
   EXPECT_DOUBLE_EQ((*video)->progress(), 1.0);
-  std::filesystem::remove(path);
 }
 
 TEST(Video, ThatNobodyCanDecodeIsRefused) {
-  const auto path = std::filesystem::temp_directory_path() / "waymark_video_test.txt";
-  std::ofstream(path) << "no video\n";
+  const test::TempFolder folder;
+  const auto path = folder.write("video.txt", "no video\n");
   const auto video = open_video(path);
   ASSERT_FALSE(video);
   EXPECT_NE(video.error().message.find("nor a video that can be decoded"), std::string::npos);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "support/io_support.hpp"
 
 namespace waymark {
 namespace {
@@ -36,14 +37,11 @@ TEST(Config, EveryKeyHasAUniqueName) {
 }
 
 TEST(Config, LaterSettingsWin) {
-  const auto file = std::filesystem::temp_directory_path() / "waymark_config_test.yaml";
-  std::ofstream(file) << "seed: 5\nthreads: 2\n";
-  const auto later = std::filesystem::temp_directory_path() / "waymark_config_test_later.yaml";
-  std::ofstream(later) << "threads: 3\n";
+  const test::TempFolder folder;
+  const auto file = folder.write("first.yaml", "seed: 5\nthreads: 2\n");
+  const auto later = folder.write("later.yaml", "threads: 3\n");
   const auto config = resolve_config({{file, later}, {"seed=6"}});
   const auto alone = resolve_config({{file}, {}});
-  std::filesystem::remove(file);
-  std::filesystem::remove(later);
   ASSERT_TRUE(config.ok() && alone.ok());
   EXPECT_EQ(config->seed, 6U);
   EXPECT_EQ(config->threads, 3);
