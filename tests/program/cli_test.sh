@@ -370,7 +370,7 @@ refuses 2 '--board circles' calibrate camera room/images --board circles
 refuses 2 'unknown key' calibrate camera room/images --set input.image=x
 WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera room/images
 WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera x.mat
-if "$waymark" calibrate camera room/images 2>&1 | grep -q 'is not installed'; then
+if "$waymark" calibrate camera x.mat 2>&1 | grep -q 'is not installed'; then
   echo 'SKIPPED: this build has no OpenCV'
 else
   refuses 2 'is neither a picture' calibrate camera x.mat
