@@ -14,10 +14,11 @@ endfunction()
 #   LIBRARIES <imported targets that the headers need...>
 #   PRIVATE_LIBRARIES <imported targets that only the sources need...>
 #   BATCH <number of files>
-#   ALONE <files...>)
-# Makes the library waymark_<name>, known as waymark::<name>.
+#   ALONE <files...>
+#   RUNS_ONCE)
+# With RUNS_ONCE it is little optimised, because compiling it would take longer than that saves. Makes the library waymark_<name>, known as waymark::<name>.
 function(waymark_folder name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES;ALONE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "RUNS_ONCE" "BATCH" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES;ALONE")
   waymark_check_arguments("waymark_folder(${name})")
   waymark_check_order(${name} "${arg_DEPENDS}")
 
@@ -37,6 +38,9 @@ function(waymark_folder name)
   target_link_libraries(${target} PUBLIC ${folders} ${arg_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
   waymark_warnings(${target})
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
+  if(arg_RUNS_ONCE)
+    waymark_runs_once(${target})
+  endif()
   waymark_record_reach(${name} "${arg_DEPENDS}")
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} WAYMARK_FLOOR ${floor})
   set_property(GLOBAL APPEND PROPERTY WAYMARK_ADDED_FOLDERS ${name})
@@ -80,27 +84,39 @@ function(waymark_program name)
   waymark_link(${target} "${arg_DEPENDS}" "${arg_LIBRARIES}")
 endfunction()
 
-# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files> ALONE <files...>)
-# One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>.
+# waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files> ALONE <files...>
+#   SLOW <gtest filters...>)
+# One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>, labelled <folder>.
+# Those that match SLOW take seconds each, most because they are statistics over many runs: they are <folder>.slow.<suite>.<test>,
+# and not run under sanitizers. There a program is one test, because starting it takes longer than most of its tests.
 function(waymark_test folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES;ALONE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES;ALONE;SLOW")
   waymark_check_arguments("waymark_test(${folder})")
   set(target waymark_${folder}_test)
   add_executable(${target} ${arg_FILES})
-  # Most of what a test compiles runs once.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  waymark_runs_once(${target})
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
   waymark_link(${target} "${folder}" "waymark_test_support;${arg_LIBRARIES}")
-  # Instrumented code takes several times as long.
-  set(timeout_s 300)
+  list(JOIN arg_SLOW ":" slow)
   if(WAYMARK_SANITIZE)
-    set(timeout_s 1200)
+    add_test(NAME ${folder} COMMAND ${target} --gtest_brief=1 "--gtest_filter=-${slow}")
+    set_tests_properties(${folder} PROPERTIES TIMEOUT 1200 LABELS ${folder})
+    return()
   endif()
+  waymark_discover_tests(${target} ${folder} "-${slow}" "")
+  if(slow)
+    waymark_discover_tests(${target} ${folder} "${slow}" "slow.")
+  endif()
+endfunction()
+
+# Those of a test program that match a filter, under names with a mark.
+function(waymark_discover_tests target folder filter mark)
   gtest_discover_tests(
     ${target}
-    TEST_PREFIX "${folder}."
+    TEST_FILTER "${filter}"
+    TEST_PREFIX "${folder}.${mark}"
     DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT ${timeout_s} LABELS "${folder}")
+    PROPERTIES TIMEOUT 300 LABELS "${folder}")
 endfunction()
 
 # waymark_bench(<folder> FILES <files...> LIBRARIES <further targets...>): one Google Benchmark program.
@@ -123,6 +139,11 @@ function(waymark_batch target files alone)
   if(alone)
     set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
+endfunction()
+
+# Compiles a target with few optimisations.
+function(waymark_runs_once target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # Links a program with those of the named folders that exist, and with other targets.

@@ -4,10 +4,11 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Folders with raw memory, foreign bytes or threads; their tests also run under the sanitizers.
-sanitized=(core kernels ekf fastslam vision config logs bags datasets)
-# Of folders whose tests would take long there, what is raw memory and foreign bytes.
-sanitized_parts='sim\..*(DevelopRow|TraceRays|RipMap)|run\.(OpenSource|InputFormats|MatLogs|ChooseRun)'
+# The folders of the engine and the workbench: their tests also run under the sanitizers of memory and of undefined behaviour.
+# Those that start threads, or hand out work to them: under that of threads.
+all=(core models kernels association ekf fastslam smooth vision slam markers
+     config logs bags datasets sim run eval study calibrate report)
+threaded=(core ekf fastslam vision markers sim study)
 
 # step TEXT: announces what comes, with the seconds since the start.
 step() { printf '\n== %s (at %s s)\n' "$1" "$SECONDS"; }
@@ -20,11 +21,13 @@ build() {
   cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
 }
 
-# check PRESET [CTEST ARGUMENTS...]: runs the tests of a build.
-check() {
+# sanitize PRESET FOLDERS...: builds and runs the tests of these folders.
+sanitize() {
   local preset=$1
   shift
-  ctest --preset "$preset" "$@" | tee "build/$preset/ctest.log"
+  local targets=("${@/#/waymark_}")
+  build "$preset" "${targets[@]/%/_test}"
+  scripts/run_tests.sh "$preset" "$@"
 }
 
 step "set-up"
@@ -38,13 +41,13 @@ scripts/doxygen.sh
 step "release build"
 build ci
 step "tests and examples"
-check ci
+scripts/run_tests.sh ci
 step "pages"
 npm test --prefix web
 step "address and undefined-behaviour sanitizers"
-targets=("${sanitized[@]/#/waymark_}" waymark_sim waymark_run)
-build asan "${targets[@]/%/_test}"
-check asan -R "^(($(IFS='|' && echo "${sanitized[*]}"))\.|$sanitized_parts)"
+sanitize asan "${all[@]}"
+step "thread sanitizer"
+sanitize tsan "${threaded[@]}"
 step "lint of what differs from origin/main"
 if git rev-parse --quiet --verify origin/main >/dev/null; then
   scripts/tidy.sh origin/main
@@ -53,5 +56,5 @@ else
 fi
 
 step "passed"
-grep -h 'tests passed' build/asan/ctest.log | sed 's/$/ (sanitized)/'
+sed -n 's/.*tests passed.*/& (programs under a sanitizer)/p' build/asan/ctest.log build/tsan/ctest.log
 grep -h 'tests passed' build/ci/ctest.log
