@@ -37,5 +37,16 @@ TEST(Existence, CertaintyEndsSoThatAGhostCanGo) {
   EXPECT_TRUE(existence.is_confirmed());
 }
 
+TEST(Existence, WhatIsCertainStaysSo) {
+  Existence existence = Existence::certain();
+  for (int i = 0; i < 3; ++i) existence.miss(model());
+  existence.see(model());
+  EXPECT_TRUE(existence.is_certain());
+  EXPECT_TRUE(existence.is_confirmed());
+  EXPECT_FALSE(existence.is_ghost());
+  EXPECT_EQ(existence.probability(), 1.0);
+  EXPECT_FALSE(Existence{}.is_certain());
+}
+
 }  // namespace
 }  // namespace waymark

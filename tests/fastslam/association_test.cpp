@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "waymark/kernels/particle_existence.hpp"
 
 namespace waymark::fastslam {
 namespace {
@@ -92,23 +93,6 @@ TEST_F(AssociationTest, RoomForChoicesEnds) {
   while (offered < 1000 && association_.offer(offered, 0, 3.0, 0.9) != nullptr) ++offered;
   EXPECT_GT(offered, 10);
   EXPECT_LT(offered, 1000);
-}
-
-TEST_F(AssociationTest, SupportIsTheWeightOfThoseThatHaveIt) {
-  Particles particles(kCloud, {});
-  float* const log_odds = store_.existence(0);
-  for (int i = 0; i < kCloud; ++i) log_odds[i] = i < 75 ? kernels::kAbsent : i < 150 ? 7.0F : 1.0F;
-  const Association::Support support = association_.support(log_odds, particles);
-  EXPECT_NEAR(support.present, 0.75, 1e-9);
-  EXPECT_NEAR(support.confirmed, 0.25, 1e-9);
-  const double mean = (75.0 * 7.0 + 150.0 * 1.0) / 225.0;
-  EXPECT_NEAR(support.probability, 0.75 / (1.0 + std::exp(-mean)), 1e-9);
-}
-
-TEST_F(AssociationTest, SightingsMakeSurerUpToALimit) {
-  EXPECT_EQ(association_.after_sighting(kernels::kAbsent), 0.0F);
-  EXPECT_NEAR(association_.after_sighting(1.0F), 1.0 + association_.model().seen(), 1e-6);
-  EXPECT_EQ(association_.after_sighting(11.9F), 12.0F);
 }
 
 }  // namespace

@@ -371,27 +371,6 @@ TEST(FastSlam, StartsFromTheGivenBelief) {
   EXPECT_TRUE(matrix_near(cloud.covariance, start.covariance, 0.002));
 }
 
-TEST(FastSlam, SnapshotAndSaveAreTheMomentsOfTheMixture) {
-  CircleWorld world(10);
-  FastSlamOptions options = with_particles(60);
-  options.resample_below = 0.0;  // so that weights differ, and pose() is of these very particles
-  FastSlam filter(options, world.sensor());
-  drive_named(filter, world, 10);
-  const Snapshot snapshot = filter.snapshot();
-  const MapState map = filter.save();
-  ASSERT_EQ(map.ids.size(), 8U);
-  ASSERT_TRUE(is_covariance(map.covariance));
-  EXPECT_TRUE(matrix_near(map.covariance.topLeftCorner<3, 3>(), filter.pose().covariance, 1e-12));
-  for (int k = 0; k < 8; ++k) {
-    const auto& landmark = snapshot.landmarks[static_cast<std::size_t>(k)];
-    EXPECT_TRUE(matrix_near(map.landmarks.segment<2>(2 * k), landmark.position_m.head<2>(), 1e-12));
-    EXPECT_TRUE(matrix_near(map.covariance.block<2, 2>(3 + 2 * k, 3 + 2 * k),
-                            landmark.covariance.topLeftCorner<2, 2>(), 1e-12));
-  }
-  // Landmarks move with the pose that they were seen from: the cross terms are not nothing.
-  EXPECT_GT(map.covariance.topRightCorner(3, 16).cwiseAbs().maxCoeff(), 1e-6);
-}
-
 TEST(FastSlam, TellsHowLikelyASightingWas) {
   CircleWorld world(4);
   FastSlam filter(with_particles(1), world.sensor());
@@ -408,21 +387,6 @@ TEST(FastSlam, TellsHowLikelyASightingWas) {
   const Innovation told = filter.correct({&seen, 1}).innovations[0];
   EXPECT_EQ(told.outcome, Outcome::kMatched);
   EXPECT_NEAR(told.log_density, plain, 1e-3);  // particles are single precision
-}
-
-TEST(FastSlam, SaveFollowsAMotionThatNoParticleHasMade) {
-  CircleWorld world(11);
-  FastSlamOptions options;
-  options.resample_below = 0.0;
-  FastSlam filter(options, world.sensor());
-  drive_named(filter, world, 10);
-  const Eigen::MatrixXd before = filter.save().covariance;
-  filter.predict({{1.0, 0.0, 0.3}, 1e-6 * Eigen::Matrix3d::Identity()});
-  const MapState map = filter.save();
-  EXPECT_TRUE(matrix_near(map.covariance.topLeftCorner<3, 3>(), filter.pose().covariance, 1e-12));
-  EXPECT_TRUE(matrix_near(map.covariance.bottomRightCorner(16, 16), before.bottomRightCorner(16, 16), 0.0));
-  EXPECT_TRUE(matrix_near(map.covariance.block(2, 3, 1, 16), before.block(2, 3, 1, 16), 0.0));
-  EXPECT_EQ(map.T_world_robot, filter.pose().T_world_robot);
 }
 
 /// However landmarks are seen.

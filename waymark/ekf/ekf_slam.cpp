@@ -16,11 +16,6 @@ struct EkfBlock {
   enum : std::size_t { kPredict, kAssociate, kEstimate, kAdd };
 };
 
-// Gated sightings in a row that mean a lost robot, and the slip (x, y, theta) that is then tried first.
-constexpr int kMostGatedInARow = 5;
-constexpr int kMostDoublings = 8;
-const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);
-
 constexpr double kStudentDof = 4.0;
 constexpr int kStudentIterations = 3;
 
@@ -143,7 +138,8 @@ const Correction& EkfSlam::correct(std::span<const Observation> given) {
   const std::span<const Observation> observations = completed_.of(given);
   prepare(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
-  if (is_lost()) widen(observations);
+  if (recovery_.is_lost(innovations_))
+    recovery_.recover(innovations_, [&](const Motion& slip) { gate_again(slip, observations); });
   if (unnamed_) match_unnamed(observations);
   timer.finish(EkfBlock::kAssociate);
   update(observations);
@@ -221,37 +217,12 @@ void EkfSlam::compare(Innovation& innovation, const std::optional<ekf::Sighting>
     management_.missed(sighting->landmark);
 }
 
-/// A misread identity is an odd one out. So many gated sightings without an accepted one between them mean
-/// that not they are wrong but the pose.
-bool EkfSlam::is_lost() {
-  for (const Innovation& innovation : innovations_) {
-    if (innovation.outcome == Outcome::kMatched) gated_in_a_row_ = 0;
-    if (innovation.outcome == Outcome::kGated) ++gated_in_a_row_;
-  }
-  return gated_in_a_row_ >= kMostGatedInARow && mostly_gated();
-}
-
-bool EkfSlam::mostly_gated() const {
-  const auto count = [this](Outcome outcome) {
-    return std::ranges::count(innovations_, outcome, &Innovation::outcome);
-  };
-  return count(Outcome::kGated) > count(Outcome::kMatched);
-}
-
-/// The robot slipped as its odometry says it never does: the pose is made less sure, step by step, until most
-/// of what is seen can be believed. A filter that went on refusing would stay lost.
-void EkfSlam::widen(std::span<const Observation> observations) {
-  ++slips_;
-  gated_in_a_row_ = 0;
-  Motion slip;
-  slip.covariance = kSmallestSlip.cwiseAbs2().asDiagonal();
-  for (int doublings = 0; doublings < kMostDoublings && mostly_gated(); ++doublings) {
-    state_.predict(slip);
-    slip.covariance *= 4.0;
-    for (std::size_t i = 0; i < observations.size(); ++i)
-      if (innovations_[i].outcome == Outcome::kGated)
-        compare(innovations_[i], linearize(matched_[i], observations[i]));
-  }
+/// Makes the pose less sure by a slip, and gates again what was refused.
+void EkfSlam::gate_again(const Motion& slip, std::span<const Observation> observations) {
+  state_.predict(slip);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (innovations_[i].outcome == Outcome::kGated)
+      compare(innovations_[i], linearize(matched_[i], observations[i]));
 }
 
 /// Innovation at the present estimate, Jacobians where the consistency mode wants them.

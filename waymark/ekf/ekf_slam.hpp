@@ -10,6 +10,7 @@
 #include "waymark/association/grid_index.hpp"
 #include "waymark/association/id_index.hpp"
 #include "waymark/association/joint_match.hpp"
+#include "waymark/association/recovery.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
@@ -70,8 +71,8 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return state_; }
-  /// How often the robot must have slipped far beyond its odometry: see correct().
-  [[nodiscard]] int slips() const { return slips_; }
+  /// How often the robot must have slipped far beyond its odometry: see Recovery.
+  [[nodiscard]] int slips() const { return recovery_.slips(); }
   /// Pairs of landmarks that turned out to be one.
   [[nodiscard]] int merges() const { return merges_; }
 
@@ -153,9 +154,7 @@ class EkfSlam final : public Filter {
   void prepare(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void compare(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
-  [[nodiscard]] bool is_lost();
-  [[nodiscard]] bool mostly_gated() const;
-  void widen(std::span<const Observation> observations);
+  void gate_again(const Motion& slip, std::span<const Observation> observations);
   /// Nothing where the landmark is believed to be at the sensor itself.
   [[nodiscard]] std::optional<ekf::Sighting> linearize(int landmark, const Observation& observation) const;
   [[nodiscard]] std::optional<ekf::Sighting> linearize_at_proposal(const ekf::Sighting& before,
@@ -229,6 +228,7 @@ class EkfSlam final : public Filter {
   CompletedObservations completed_;
   EkfOptions options_;
   Gate gate_;
+  Recovery recovery_;
   Pose2 T_robot_sensor_;
   IdIndex index_;
   ekf::MapManagement management_;
@@ -239,8 +239,6 @@ class EkfSlam final : public Filter {
   std::vector<Unlocated> unlocated_;
   int viewpoint_of_scan_ = -1;
   double way_m_ = 0.0;
-  int gated_in_a_row_ = 0;
-  int slips_ = 0;
   int merges_ = 0;
   std::vector<int> matched_;              // by observation: index of its landmark, or -1
   std::vector<Innovation> innovations_;   // one per observation of the last correct()

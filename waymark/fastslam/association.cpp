@@ -99,24 +99,4 @@ double Association::log_weight(const Choice& choice) {
   return choice.landmark != ExclusiveMatch::kNothing ? choice.log_odds : choice.log_others + kLogTwoPi;
 }
 
-float Association::after_sighting(float log_odds) const {
-  return static_cast<float>(model_.after_sighting(static_cast<double>(log_odds)));
-}
-
-Association::Support Association::support(const float* log_odds, const Particles& particles) const {
-  const auto confirmed = static_cast<float>(model_.confirmed());
-  const auto sums = blocks_.sum([&](std::size_t begin, std::size_t end) {
-    std::array<double, 3> sum{};
-    for (std::size_t i = begin; i < end; ++i) {
-      const double w = log_odds[i] < 0.0F ? 0.0 : particles.weights()[i];
-      sum[0] += w;
-      sum[1] += log_odds[i] < confirmed ? 0.0 : w;
-      sum[2] += w * static_cast<double>(log_odds[i]);
-    }
-    return sum;
-  });
-  const double mean = sums[0] > 0.0 ? sums[2] / sums[0] : 0.0;
-  return {sums[0], sums[1], sums[0] / (1.0 + std::exp(-mean))};
-}
-
 }  // namespace waymark::fastslam

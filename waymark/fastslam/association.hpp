@@ -13,12 +13,10 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/fastslam/gate_sample.hpp"
 #include "waymark/fastslam/landmark_store.hpp"
-#include "waymark/fastslam/particles.hpp"
-#include "waymark/kernels/particle_existence.hpp"
 
 namespace waymark::fastslam {
 
-/// Finds out which landmarks unnamed sightings are of, and which landmarks exist.
+/// Finds out which landmarks unnamed sightings are of.
 ///
 /// The particles decide together where they agree, each for itself where they do not. Together: the
 /// innovation of a sighting against a landmark has a mean and a covariance over the whole set, spread of the
@@ -36,8 +34,6 @@ class Association {
 
   /// `blocks` must outlive it.
   Association(const AssociationModel& model, ParticleBlocks& blocks);
-
-  [[nodiscard]] const AssociationModel& model() const { return model_; }
 
   /// Where the landmarks are for one particle, to be found by visit_near(). O(landmarks).
   void index(const LandmarkStore& store, int particle);
@@ -76,17 +72,6 @@ class Association {
   /// What the choice adds to the log weight of those that take it, besides log N(nu; 0, L) without its
   /// constant.
   [[nodiscard]] static double log_weight(const Choice& choice);
-
-  /// The log-odds of a landmark after a sighting of it: at least those of one that has just been met.
-  [[nodiscard]] float after_sighting(float log_odds) const;
-
-  /// What the particles together hold of a landmark's existence.
-  struct Support {
-    double present = 0.0;      ///< weight of the particles that have it
-    double confirmed = 0.0;    ///< weight of those that are sure of it
-    double probability = 0.0;  ///< that it exists
-  };
-  [[nodiscard]] Support support(const float* log_odds, const Particles& particles) const;
 
  private:
   Choice* add_choice(const Choice& choice);

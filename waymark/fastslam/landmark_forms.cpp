@@ -60,7 +60,7 @@ void set_numbers(const LandmarkMode& mode, std::size_t i, const ModeNumbers& m) 
   g.bb[i] = m.bb;
 }
 
-float mahalanobis_squared(const ModeNumbers& m, const ModeNumbers& n) {
+float squared_distance(const ModeNumbers& m, const ModeNumbers& n) {
   const float da = n.a - m.a;
   const float db = n.b - m.b;
   const float aa = m.aa + n.aa;
@@ -93,7 +93,7 @@ void merge_neighbours(const LandmarkView& landmark, std::size_t begin, std::size
     const LandmarkMode& second = landmark.modes[k + 1];
     for (std::size_t i = begin; i < end; ++i)
       if (is_alive(first, i) && is_alive(second, i) &&
-          mahalanobis_squared(numbers(first, i), numbers(second, i)) < kMergeDistanceSquared)
+          squared_distance(numbers(first, i), numbers(second, i)) < kMergeDistanceSquared)
         merge(first, second, i);
   }
 }

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+
+#include "waymark/core/filter.hpp"
+#include "waymark/core/motion.hpp"
+
+namespace waymark {
+
+/// The way back of a robot that slipped as its odometry says it never does. A filter that went on gating
+/// would stay lost.
+///
+/// A misread identity is an odd one out. So many gated observations without an accepted one between them, in
+/// a scan that is mostly gated, mean that not they are wrong but the pose. Then its covariance is inflated
+/// step by step until at least half of the scan passes the gate.
+class Recovery {
+ public:
+  /// Counts the outcomes of one scan, once. True if the robot is lost. O(observations).
+  [[nodiscard]] bool is_lost(std::span<const Innovation> innovations);
+
+  /// Calls `inflate(slip)` while `innovations` are mostly gated: it makes the pose less sure by the motion
+  /// `slip`, of zero mean and independent in x, y and theta (robot frame), and gates again what was gated.
+  /// The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight at most: about
+  /// 3 m and 3 rad in all.
+  template <class Inflate>
+  void recover(std::span<const Innovation> innovations, const Inflate& inflate) {
+    ++slips_;
+    gated_in_a_row_ = 0;
+    Motion slip = smallest_slip();
+    for (int doublings = 0; doublings < kMostDoublings && is_mostly_gated(innovations); ++doublings) {
+      inflate(slip);
+      slip.covariance *= 4.0;
+    }
+  }
+
+  /// How often the robot was lost.
+  [[nodiscard]] int slips() const { return slips_; }
+
+ private:
+  static constexpr int kMostDoublings = 8;
+
+  [[nodiscard]] static bool is_mostly_gated(std::span<const Innovation> innovations);
+  [[nodiscard]] static Motion smallest_slip();
+
+  int gated_in_a_row_ = 0;
+  int slips_ = 0;
+};
+
+}  // namespace waymark

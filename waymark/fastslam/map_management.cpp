@@ -1,0 +1,120 @@
+#include "waymark/fastslam/map_management.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "waymark/association/association_options.hpp"
+
+namespace waymark::fastslam {
+namespace {
+
+using kernels::LandmarkForm;
+using kernels::SeenLandmark;
+
+// Whether a landmark may become a point is asked at every so many observations of it.
+constexpr int kObservationsPerRefinement = 4;
+
+}  // namespace
+
+MapManagement::MapManagement(const FastSlamOptions& options, const SensorModel& model)
+    : model_(model),
+      start_(options.init),
+      capacity_(options.capacity),
+      confirms_at_once_(options.unknown && options.unknown->confirmed_log_odds <= 0.0) {}
+
+void MapManagement::initialise(std::size_t index, Scan& scan, const ViewHistory& history, Belief& belief) {
+  const Observation& observation = scan.observations[index];
+  if (observation.id)
+    initialise_named(observation, history, belief);
+  else
+    scan.innovations[index].landmark = initialise_unnamed(observation, belief);
+}
+
+void MapManagement::initialise_named(const Observation& observation, const ViewHistory& history,
+                                     Belief& belief) {
+  const SeenLandmark z = seen_first(observation, belief);
+  const bool guess = start_ == LandmarkStart::kGuess && z.kind != kernels::SightingKind::kRangeBearing;
+  const FirstForm first = guess ? FirstForm{} : first_form(z, model_.sensor(), history);
+  const int landmark = belief.add({.id = *observation.id}, first.form, first.modes, observation);
+  if (guess)
+    place_by_guess(belief.store, landmark, z, model_.sensor(), belief.particles,
+                   {belief.seed, StreamPurpose::kInitialisation, static_cast<std::uint64_t>(landmark) + 1},
+                   belief.blocks);
+  else
+    place(landmark, z, first.guess, belief);
+  if (belief.store.form(landmark) != LandmarkForm::kPoint) unresolved_.push_back(landmark);
+}
+
+/// A point whose existence is in doubt.
+LandmarkId MapManagement::initialise_unnamed(const Observation& observation, Belief& belief) {
+  const LandmarkId id = belief.landmarks.unused_id();
+  const int landmark = belief.add({.id = id, .identity = Identity::kUnknown, .existence = {}},
+                                  LandmarkForm::kPoint, 1, observation);
+  if (confirms_at_once_) belief.landmarks.existence(landmark).confirm();
+  place(landmark, seen_first(observation, belief), {}, belief);
+  std::fill_n(belief.store.existence(landmark), belief.particles.count(), 0.0F);
+  return id;
+}
+
+void MapManagement::initialise_choices(Scan& scan, const ParticleMatcher& matcher, Belief& belief) {
+  for (const Association::Choice& choice : matcher.choices()) {
+    if (choice.landmark != ExclusiveMatch::kNothing || room(belief) <= 0) continue;
+    const std::span<const float> takers(choice.column, as_index(belief.particles.count()));
+    if (std::ranges::none_of(takers, [](float t) { return t != 0.0F; })) continue;
+    const auto index = as_index(choice.sighting);
+    const LandmarkId id = initialise_unnamed(scan.observations[index], belief);
+    if (scan.landmarks[index] == Scan::kNone) scan.innovations[index].landmark = id;
+    float* const log_odds = belief.store.existence(belief.store.size() - 1);
+    for (std::size_t i = 0; i < takers.size(); ++i)
+      if (takers[i] == 0.0F) log_odds[i] = kernels::kAbsent;
+  }
+}
+
+/// After so long a way that nothing which lasts is left of an earlier error.
+SeenLandmark MapManagement::seen_first(const Observation& observation, const Belief& belief) const {
+  return model_.seen(observation, std::numeric_limits<double>::infinity(), belief.calibration.columns());
+}
+
+void MapManagement::place(int landmark, const SeenLandmark& seen, const kernels::FirstGuess& guess,
+                          Belief& belief) const {
+  const kernels::Sighting sighting{seen, model_.mount(), belief.view(landmark)};
+  belief.run_with_sensors(model_.mount(), [&](const auto& sensors, const auto& range) {
+    kernels::place_landmark(sighting, guess, sensors, range);
+  });
+}
+
+void MapManagement::miss(Belief& belief) const {
+  const double detected = model_.sensor().detection_probability;
+  if (!(detected > 0.0)) return;
+  for (const int k : unresolved_) {
+    if (belief.store.modes(k) == 1 || belief.landmarks.is_claimed(k)) continue;
+    belief.store.touch(k);
+    const kernels::Sighting sighting{{}, model_.mount(), belief.view(k)};
+    belief.run_with_sensors(model_.mount(), [&](const auto& sensors, const auto& range) {
+      kernels::miss_modes(sighting, detected, sensors, range);
+    });
+  }
+}
+
+void MapManagement::refine(Belief& belief) {
+  for (const int k : unresolved_) {
+    if (belief.store.modes(k) > 1) {
+      belief.store.touch(k);
+      tidy_modes(belief.store, k, belief.particles, belief.blocks);
+    }
+    const bool is_due = belief.landmarks[k].observations % kObservationsPerRefinement == 0;
+    if (is_due && belief.landmarks.is_observed(k))
+      become_point_if_linear(belief.store, k, belief.particles, model_.mount(), belief.blocks);
+  }
+  std::erase_if(unresolved_, [&](int k) { return belief.store.form(k) == LandmarkForm::kPoint; });
+}
+
+void MapManagement::forget_ghosts(Belief& belief) {
+  for (int k = belief.store.size() - 1; k >= 0; --k) {
+    if (belief.records[as_index(k)].existence > 0.0 && !belief.landmarks.is_stale(k)) continue;
+    belief.remove(k);
+    std::ranges::replace(unresolved_, belief.store.size(), k);
+  }
+}
+
+}  // namespace waymark::fastslam

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "waymark/core/observation.hpp"
+#include "waymark/fastslam/belief.hpp"
+#include "waymark/fastslam/fast_slam_options.hpp"
+#include "waymark/fastslam/landmark_forms.hpp"
+#include "waymark/fastslam/particle_matcher.hpp"
+#include "waymark/fastslam/scan.hpp"
+#include "waymark/fastslam/sensor_model.hpp"
+#include "waymark/fastslam/view_history.hpp"
+
+namespace waymark::fastslam {
+
+/// Which landmarks the map has: initialises them, lets their hypotheses go as observations decide, and
+/// forgets those that turned out not to exist.
+class MapManagement {
+ public:
+  MapManagement(const FastSlamOptions& options, const SensorModel& model);
+
+  /// How many more landmarks the map can hold.
+  [[nodiscard]] int room(const Belief& belief) const { return capacity_ - belief.store.size(); }
+
+  /// Initialises the landmark of an observation that is new (Outcome::kAdded) to all particles, and names it
+  /// where the observation does not. O(N).
+  void initialise(std::size_t index, Scan& scan, const ViewHistory& history, Belief& belief);
+  /// Initialises what is new to those particles only that chose so.
+  void initialise_choices(Scan& scan, const ParticleMatcher& matcher, Belief& belief);
+
+  /// Hypotheses that were expected in this scan, of landmarks that were not seen, become less likely.
+  void miss(Belief& belief) const;
+  /// Landmarks may have become simpler: fewer hypotheses, or points.
+  void refine(Belief& belief);
+
+  /// Forgets landmarks that no particle believes in any more, and those that a single observation left
+  /// behind. O(landmarks).
+  void forget_ghosts(Belief& belief);
+
+ private:
+  void initialise_named(const Observation& observation, const ViewHistory& history, Belief& belief);
+  [[nodiscard]] LandmarkId initialise_unnamed(const Observation& observation, Belief& belief);
+  [[nodiscard]] kernels::SeenLandmark seen_first(const Observation& observation, const Belief& belief) const;
+  void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess,
+             Belief& belief) const;
+
+  SensorModel model_;
+  LandmarkStart start_;
+  int capacity_;
+  bool confirms_at_once_;        // landmarks without identity
+  std::vector<int> unresolved_;  // rays and rings
+};
+
+}  // namespace waymark::fastslam
