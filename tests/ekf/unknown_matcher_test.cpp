@@ -1,4 +1,4 @@
-// EKF-SLAM over sightings without identity.
+#include "waymark/ekf/unknown_matcher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@ namespace {
 
 using test::CircleWorld;
 using test::drive;
-using test::nearest_m;
 using test::unnamed;
 
 EkfSlam make_filter(const CircleWorld& world, EkfOptions options = {.capacity = 40}, bool jointly = true) {
@@ -42,13 +41,13 @@ INSTANTIATE_TYPED_TEST_SUITE_P(EkfSlam, UnnamedFilter, EitherWay);
 
 namespace {
 
-TEST(EkfSlamUnnamed, WithoutAssociationNothingUnnamedIsUsed) {
+TEST(UnknownMatcher, WithoutAssociationNothingUnnamedIsUsed) {
   CircleWorld world(1);
   EkfSlam filter({.capacity = 40}, world.sensor());
   EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kUnidentified), 8);
 }
 
-TEST(EkfSlamUnnamed, WithoutClutterItIsTheFilterThatKnows) {
+TEST(UnknownMatcher, WithoutClutterItIsTheFilterThatKnows) {
   CircleWorld told(2);
   CircleWorld untold(2);
   EkfSlam knows({.capacity = 40}, told.sensor());
@@ -64,7 +63,7 @@ TEST(EkfSlamUnnamed, WithoutClutterItIsTheFilterThatKnows) {
   EXPECT_LT((knows.save().covariance - guesses.save().covariance).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(EkfSlamUnnamed, ASingleSightingIsNotInTheSavedCovarianceYet) {
+TEST(UnknownMatcher, ASingleSightingIsNotInTheSavedCovarianceYet) {
   CircleWorld world(2);
   EkfSlam filter = make_filter(world);
   filter.correct(unnamed(world.look()));
@@ -73,7 +72,7 @@ TEST(EkfSlamUnnamed, ASingleSightingIsNotInTheSavedCovarianceYet) {
   EXPECT_EQ(filter.save().covariance.rows(), 19);
 }
 
-TEST(EkfSlamUnnamed, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
+TEST(UnknownMatcher, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
   CircleWorld world(6);
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);
@@ -95,26 +94,7 @@ TEST(EkfSlamUnnamed, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
   }
 }
 
-TEST(EkfSlamUnnamed, ALandmarkThatIsThereTwiceIsMerged) {
-  CircleWorld world(6);
-  EkfSlam filter = make_filter(world);
-  drive(filter, world, 20);
-  ASSERT_EQ(filter.snapshot().landmarks.size(), 8U);
-  std::size_t removed = 0;
-  for (int i = 0; i < 20; ++i) {
-    filter.predict(world.move());
-    removed += filter.correct(world.look()).removed.size();  // the same ones, now with names
-  }
-  EXPECT_GT(filter.merges(), 0);
-  EXPECT_EQ(removed, 8U);
-  const auto landmarks = filter.snapshot().landmarks;
-  EXPECT_EQ(landmarks.size(), 8U);
-  for (const LandmarkEstimate& landmark : landmarks)
-    EXPECT_EQ(landmark.id.family, LandmarkId::Family::kMarker);
-  for (const auto& p : world.landmarks()) EXPECT_LT(nearest_m(filter.snapshot(), p), 0.5);
-}
-
-TEST(EkfSlamUnnamed, ASecondSightingBesideALandmarkIsAmbiguous) {
+TEST(UnknownMatcher, ASecondSightingBesideALandmarkIsAmbiguous) {
   CircleWorld world(7);
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);
@@ -127,7 +107,7 @@ TEST(EkfSlamUnnamed, ASecondSightingBesideALandmarkIsAmbiguous) {
   EXPECT_EQ(correction.count(Outcome::kAmbiguous), 1);
 }
 
-TEST(EkfSlamUnnamed, ACompressedMapIsTheSame) {
+TEST(UnknownMatcher, ACompressedMapIsTheSame) {
   CircleWorld world(8);
   const auto filter = [&world](Compress compressed) {
     return make_filter(world,
@@ -144,7 +124,7 @@ TEST(EkfSlamUnnamed, ACompressedMapIsTheSame) {
   EXPECT_LT((whole.save().covariance - compressed.save().covariance).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(EkfSlamUnnamed, AFullMapStillTakesWhatIsSeen) {
+TEST(UnknownMatcher, AFullMapStillTakesWhatIsSeen) {
   CircleWorld world(9);
   EkfSlam filter = make_filter(world, {.capacity = 5});
   drive(filter, world, 50);
@@ -152,7 +132,7 @@ TEST(EkfSlamUnnamed, AFullMapStillTakesWhatIsSeen) {
   EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 1.0);
 }
 
-TEST(EkfSlamUnnamed, NonsenseIsRefused) {
+TEST(UnknownMatcher, NonsenseIsRefused) {
   CircleWorld world(10);
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);

@@ -1,4 +1,4 @@
-// EkfSlam with ranges or bearings alone.
+#include "waymark/ekf/deferred_initialiser.hpp"
 
 #include <cmath>
 #include <vector>
@@ -37,9 +37,9 @@ void drive(EkfSlam& filter, CircleWorld& world, int steps, Part part) {
   }
 }
 
-class EkfSlamOfPart : public testing::TestWithParam<Part> {};
+class DeferredInitialisation : public testing::TestWithParam<Part> {};
 
-TEST_P(EkfSlamOfPart, FollowsTheTruthWithinItsOwnUncertainty) {
+TEST_P(DeferredInitialisation, FollowsTheTruthWithinItsOwnUncertainty) {
   double nees = 0.0;
   double landmark_nees = 0.0;
   constexpr int kRuns = 16;
@@ -66,9 +66,9 @@ TEST_P(EkfSlamOfPart, FollowsTheTruthWithinItsOwnUncertainty) {
   EXPECT_LT(landmark_nees, 4.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, EkfSlamOfPart, testing::Values(Part::kRange, Part::kBearing));
+INSTANTIATE_TEST_SUITE_P(Each, DeferredInitialisation, testing::Values(Part::kRange, Part::kBearing));
 
-class EkfSlamOfParts : public testing::TestWithParam<std::tuple<Part, ekf::Consistency>> {
+class DeferredInitialisations : public testing::TestWithParam<std::tuple<Part, ekf::Consistency>> {
  protected:
   static EkfSlam make(const CircleWorld& world, int capacity = 100) {
     return EkfSlam({std::get<1>(GetParam()), capacity}, world.sensor());
@@ -76,7 +76,7 @@ class EkfSlamOfParts : public testing::TestWithParam<std::tuple<Part, ekf::Consi
   static Part part() { return std::get<0>(GetParam()); }
 };
 
-TEST_P(EkfSlamOfParts, NoViewpointIsLeftOnceAllLandmarksAreLocated) {
+TEST_P(DeferredInitialisations, NoViewpointIsLeftOnceAllLandmarksAreLocated) {
   CircleWorld world(3);
   EkfSlam filter = make(world);
   drive(filter, world, 5, part());
@@ -88,7 +88,7 @@ TEST_P(EkfSlamOfParts, NoViewpointIsLeftOnceAllLandmarksAreLocated) {
   EXPECT_EQ(filter.state().landmarks(), 8);
 }
 
-TEST_P(EkfSlamOfParts, ALandmarkIsPendingUntilItIsAddedOnce) {
+TEST_P(DeferredInitialisations, ALandmarkIsPendingUntilItIsAddedOnce) {
   CircleWorld world(4);
   EkfSlam filter = make(world);
   EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kPending), 8);
@@ -101,7 +101,7 @@ TEST_P(EkfSlamOfParts, ALandmarkIsPendingUntilItIsAddedOnce) {
   EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kMatched), 8);
 }
 
-TEST_P(EkfSlamOfParts, ARobotThatStandsNeverLocates) {
+TEST_P(DeferredInitialisations, ARobotThatStandsNeverLocates) {
   CircleWorld world(5);
   EkfSlam filter = make(world);
   for (int i = 0; i < 100; ++i)
@@ -109,7 +109,7 @@ TEST_P(EkfSlamOfParts, ARobotThatStandsNeverLocates) {
   EXPECT_LE(filter.state().landmarks(), 2);
 }
 
-TEST_P(EkfSlamOfParts, AMapWithLittleRoomStaysWithinIt) {
+TEST_P(DeferredInitialisations, AMapWithLittleRoomStaysWithinIt) {
   CircleWorld world(6);
   EkfSlam filter = make(world, 12);
   for (int i = 0; i < 200; ++i) {
@@ -120,7 +120,7 @@ TEST_P(EkfSlamOfParts, AMapWithLittleRoomStaysWithinIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EkfSlamOfParts,
+INSTANTIATE_TEST_SUITE_P(All, DeferredInitialisations,
                          testing::Combine(testing::Values(Part::kRange, Part::kBearing),
                                           testing::Values(ekf::Consistency::kInvariant,
                                                           ekf::Consistency::kFej,
