@@ -12,6 +12,14 @@
 
 namespace waymark::ekf {
 
+/// Covariance of a ray's (x, y, rho) whose direction and inverse depth have nothing in common.
+[[nodiscard]] inline Eigen::Matrix3d ray_covariance(const Eigen::Matrix2d& xy_covariance, double rho_sigma) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.topLeftCorner<2, 2>() = xy_covariance;
+  covariance(2, 2) = rho_sigma * rho_sigma;
+  return covariance;
+}
+
 /// The landmarks of a camera and what of them stands where in the state: points (x, y, z), and rays (x, y,
 /// rho) relative to the pose of the robot from which they were first seen, their anchor, which stays in the
 /// state for as long as something needs it. Nothing allocates after construction.
@@ -54,6 +62,8 @@ class PixelMap {
   [[nodiscard]] int anchor_element(int anchor) const {
     return anchors_[static_cast<std::size_t>(anchor)].element;
   }
+  /// How often it is held: once by each of its rays, and by whoever called add_anchor() or hold().
+  [[nodiscard]] int holders(int anchor) const { return anchors_[static_cast<std::size_t>(anchor)].holders; }
 
   /// Appends a ray (x, y, rho) with its covariance and returns its index; it holds its anchor. The map must
   /// not be full.

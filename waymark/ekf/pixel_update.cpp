@@ -1,0 +1,148 @@
+#include "waymark/ekf/pixel_update.hpp"
+
+#include "waymark/core/chi2.hpp"
+#include "waymark/core/gaussian.hpp"
+
+namespace waymark::ekf {
+
+PixelUpdate::PixelUpdate(const PixelSlamOptions& options, BoundedMap& map, const PixelPrediction& prediction)
+    : map_(map),
+      prediction_(prediction),
+      gate_(chi2_quantile(options.gate_probability, 2)),
+      gates_alone_(options.update == UpdateMethod::kTextbook),
+      consensus_(State::kMaxSightings, gate_,
+                 prediction.camera().width_px() * prediction.camera().height_px()),
+      update_(options, prediction) {
+  innovations_.reserve(static_cast<std::size_t>(options.capacity));
+  block_.reserve(State::kMaxSightings);
+  sightings_.reserve(State::kMaxSightings);
+  nus_.reserve(State::kMaxSightings);
+  told_.reserve(State::kMaxSightings);
+  used_.reserve(State::kMaxSightings);
+  if (gates_alone_) map.map().state().use_textbook_update();
+}
+
+std::span<const Innovation> PixelUpdate::update(std::span<const FoundPixel> found) {
+  innovations_.assign(found.size(), {});
+  for (std::size_t next = 0; next < found.size();) {
+    next = collect(found, next);
+    if (block_.empty()) continue;
+    judge();
+    update_matched(found);
+    if (!gates_alone_) rescue(found);
+    note_usefulness(found);
+  }
+  return innovations_;
+}
+
+std::optional<Innovation> PixelUpdate::confirm(const FoundPixel& found) {
+  const auto compared = compare(found, prediction_.camera_pose(map_.map()));
+  if (!compared) return std::nullopt;
+  const Innovation confirmed = innovation(found, *compared);
+  update_.clear();
+  update_.add(found, compared->sighting);
+  static_cast<void>(update_.apply(map_.map()));
+  return confirmed;
+}
+
+/// Nothing where it cannot be used.
+std::optional<PixelUpdate::Compared> PixelUpdate::compare(const FoundPixel& found,
+                                                          const CameraPose& here) const {
+  const auto sighting = prediction_.linearize(map_.map(), found, here);
+  if (!sighting) return std::nullopt;
+  const Eigen::Matrix2d S = map_.map().state().innovation_covariance(*sighting);
+  const auto nis = mahalanobis_squared<2>(sighting->nu, S);
+  if (!nis) return std::nullopt;
+  return Compared{*sighting, S, *nis};
+}
+
+Innovation PixelUpdate::innovation(const FoundPixel& found, const Compared& compared) const {
+  return {.landmark = map_.map().feature(found.feature).id,
+          .outcome = Outcome::kMatched,
+          .dof = 2,
+          .nis = compared.nis,
+          .gate = gate_,
+          .log_density = log_gaussian<2>(compared.nis, compared.S)};
+}
+
+/// Makes a block of the pixels from the first one on, all at the present estimate. The one behind its last.
+std::size_t PixelUpdate::collect(std::span<const FoundPixel> found, std::size_t first) {
+  block_.clear();
+  sightings_.clear();
+  nus_.clear();
+  told_.clear();
+  const State& state = map_.map().state();
+  const CameraPose here = prediction_.camera_pose(map_.map());
+  std::size_t next = first;
+  for (; next < found.size() && block_.size() < State::kMaxSightings; ++next) {
+    const auto compared = compare(found[next], here);
+    if (!compared) {
+      innovations_[next].landmark = map_.map().feature(found[next].feature).id;
+      continue;
+    }
+    const Sighting& sighting = compared->sighting;
+    innovations_[next] = innovation(found[next], *compared);
+    block_.push_back(next);
+    sightings_.push_back(sighting);
+    nus_.push_back(sighting.nu);
+    told_.push_back(
+        {state.pose().covariance, state.pose_correlation(sighting), compared->S, sighting.H_pose});
+  }
+  return next;
+}
+
+/// Which of the block are matched.
+void PixelUpdate::judge() {
+  if (gates_alone_) {
+    for (const std::size_t i : block_)
+      if (innovations_[i].nis > gate_) innovations_[i].outcome = Outcome::kGated;
+    return;
+  }
+  const auto outcomes = consensus_.judge(map_.map().state().joint_innovation_covariance(sightings_), nus_);
+  for (std::size_t k = 0; k < block_.size(); ++k) innovations_[block_[k]].outcome = outcomes[k];
+}
+
+void PixelUpdate::update_matched(std::span<const FoundPixel> found) {
+  update_.clear();
+  used_.clear();
+  for (std::size_t k = 0; k < block_.size(); ++k) {
+    if (innovations_[block_[k]].outcome != Outcome::kMatched) continue;
+    update_.add(found[block_[k]], sightings_[k]);
+    used_.push_back(block_[k]);
+  }
+  apply();
+}
+
+/// Updates with those that were gated but fit where the others have led. Their NIS stays what it was.
+void PixelUpdate::rescue(std::span<const FoundPixel> found) {
+  update_.clear();
+  used_.clear();
+  const CameraPose here = prediction_.camera_pose(map_.map());
+  for (const std::size_t i : block_) {
+    if (innovations_[i].outcome != Outcome::kGated) continue;
+    const auto compared = compare(found[i], here);
+    if (!compared || !consensus_.rescues(compared->nis, compared->S)) continue;
+    innovations_[i].outcome = Outcome::kMatched;
+    update_.add(found[i], compared->sighting);
+    used_.push_back(i);
+  }
+  apply();
+}
+
+void PixelUpdate::apply() {
+  if (update_.apply(map_.map())) return;
+  for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
+}
+
+void PixelUpdate::note_usefulness(std::span<const FoundPixel> found) {
+  for (std::size_t k = 0; k < block_.size(); ++k) {
+    const int feature = found[block_[k]].feature;
+    const Outcome outcome = innovations_[block_[k]].outcome;
+    if (outcome == Outcome::kMatched)
+      map_.matched(feature, told_[k]);
+    else if (outcome == Outcome::kGated)
+      map_.missed(feature);
+  }
+}
+
+}  // namespace waymark::ekf
