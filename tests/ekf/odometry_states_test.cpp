@@ -8,7 +8,6 @@
 
 #include "support/circle_world.hpp"
 #include "support/matrix_near.hpp"
-#include "waymark/core/random.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 
 namespace waymark {
@@ -76,51 +75,6 @@ TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
 TEST(OdometryStates, AreOffUnlessAskedFor) {
   CircleWorld world(1);
   EXPECT_FALSE(EkfSlam({}, world.sensor()).calibration());
-}
-
-/// The covariance after a motion that depends on lasting errors is F P F^T + G Q G^T of the whole state, by
-/// plain matrices.
-TEST(StatePredict, SpreadsLastingErrorsAsPlainMatricesDo) {
-  RandomStream random(7, StreamPurpose::kWorld);
-  ekf::State state(2, 4, ekf::Consistency::kStandard, 1, 2);
-  for (int pair = 0; pair < 2; ++pair) state.relax_errors(pair, 0.0);
-  const auto random_terms = [&random] {
-    ekf::ErrorTerms terms;
-    for (int pair = 0; pair < 2; ++pair) {
-      terms[static_cast<std::size_t>(pair)].pair = pair;
-      for (auto& entry : terms[static_cast<std::size_t>(pair)].J.reshaped()) entry = 0.1 * random.normal();
-    }
-    return terms;
-  };
-  const auto whole = [&state] {
-    const auto n = static_cast<Eigen::Index>(state.size());
-    Eigen::MatrixXd P(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j)
-        P(i, j) = state.covariance(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-    return P;
-  };
-  for (int step = 0; step < 10; ++step) {
-    const Eigen::MatrixXd before = whole();
-    const Pose2 from = state.pose().T_world_robot;
-    const Motion motion{{0.2, 0.01, 0.1 * random.normal()}, 1e-4 * Eigen::Matrix3d::Identity()};
-    const ekf::ErrorTerms terms = random_terms();
-    state.predict(motion, terms);
-    const auto n = before.rows();
-    Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
-    F.topLeftCorner<3, 3>() = compose_jacobian_left(from, motion.increment);
-    const Eigen::Matrix3d G = compose_jacobian_right(from);
-    for (int pair = 0; pair < 2; ++pair)
-      F.block<3, 2>(0, 3 + 2 * pair) = G * terms[static_cast<std::size_t>(pair)].J;
-    Eigen::MatrixXd after = F * before * F.transpose();
-    after.topLeftCorner<3, 3>() += G * motion.covariance * G.transpose();
-    EXPECT_TRUE(matrix_near(whole(), after, 1e-12)) << step;
-    if (step < 3) {
-      Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
-      G_pose.topLeftCorner<2, 2>().setIdentity();
-      state.add({1.0, step * 1.0, 0.0}, G_pose, 0.01 * Eigen::Matrix3d::Identity());
-    }
-  }
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "waymark/ekf/state.hpp"
 
-#include <memory>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -13,44 +12,17 @@
 #include "waymark/core/random.hpp"
 
 #include "dense_filter.hpp"
+#include "random_sightings.hpp"
 
 namespace waymark::ekf {
 namespace {
 
 using test::DenseFilter;
 using test::matrix_near;
-
-Motion random_motion(RandomStream& random) {
-  const Pose2 increment{random.uniform(0.0, 0.3), random.uniform(-0.02, 0.02), random.uniform(-0.2, 0.2)};
-  return {increment, test::random_covariance<3>(random, 1e-4)};
-}
-
-ErrorTerms random_errors(RandomStream& random, int pairs) {
-  ErrorTerms errors;
-  for (int k = 0; k < std::min(pairs, kErrorTerms); ++k) {
-    if (random.uniform() < 0.3) continue;
-    auto& error = errors[static_cast<std::size_t>(k)];
-    error.pair = (k + static_cast<int>(random.uniform() * (pairs - 1))) % pairs;
-    for (auto& entry : error.J.reshaped()) entry = 0.1 * random.normal();
-  }
-  if (errors[0].pair == errors[1].pair) errors[1].pair = -1;
-  return errors;
-}
-
-/// A sighting as a filter would linearise it, with Jacobians of no particular sensor.
-Sighting random_sighting(RandomStream& random, int landmark, int dimension, int error_pairs = 0) {
-  Sighting s;
-  s.landmark = landmark;
-  s.rows = random.uniform() < 0.3 ? 1 : 2;
-  s.nu = Eigen::Vector2d(random.normal(), random.normal()) * 0.05;
-  for (auto& entry : s.H_pose.reshaped()) entry = random.normal();
-  for (auto& entry : s.H_landmark.reshaped()) entry = random.normal();
-  for (auto& entry : s.H_anchor.reshaped()) entry = random.normal();
-  if (dimension == 2) s.H_landmark.col(2).setZero();
-  s.R = test::random_covariance<2>(random, 0.05);
-  s.errors = random_errors(random, error_pairs);
-  return s;
-}
+using test::random_errors;
+using test::random_motion;
+using test::random_sighting;
+using test::small_map;
 
 struct StateCase {
   int dimension;
@@ -245,31 +217,6 @@ INSTANTIATE_TEST_SUITE_P(
                     StateCase{2, Consistency::kStandard, 3}, StateCase{2, Consistency::kInvariant, 3},
                     StateCase{3, Consistency::kFej, 2}));
 
-std::unique_ptr<State> small_map(RandomStream& random, int landmarks, int threads = 1) {
-  auto made = std::make_unique<State>(2, landmarks, Consistency::kInvariant, threads);
-  State& state = *made;
-  state.predict({{0.1, 0.0, 0.1}, 1e-3 * Eigen::Matrix3d::Identity()});
-  for (int i = 0; i < landmarks; ++i) {
-    const Eigen::Vector3d position(random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0), 0.0);
-    Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
-    G.block<2, 1>(0, 2) = perpendicular(position.head<2>());
-    state.add(position, G, test::random_covariance<3>(random, 0.01));
-  }
-  return made;
-}
-
-TEST(State, MarginalsAreBlocksOfTheWholeCovariance) {
-  RandomStream random(3, StreamPurpose::kWorld);
-  const auto made = small_map(random, 5);
-  State& state = *made;
-  state.predict(random_motion(random));  // leaves a pending prediction of the robot's rows
-  const Eigen::MatrixXd P = state.covariance();
-  EXPECT_TRUE(matrix_near(state.pose().covariance, P.topLeftCorner<3, 3>(), 0.0));
-  for (int i = 0; i < 5; ++i)
-    EXPECT_TRUE(matrix_near(state.landmark_covariance(i).topLeftCorner<2, 2>(),
-                            P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
-}
-
 TEST(State, LoosensALandmarkByItself) {
   RandomStream random(6, StreamPurpose::kWorld);
   const auto made = small_map(random, 5);
@@ -278,21 +225,6 @@ TEST(State, LoosensALandmarkByItself) {
   made->loosen(2, more);
   expected.block<2, 2>(7, 7) += more.topLeftCorner<2, 2>();
   EXPECT_TRUE(matrix_near(made->covariance(), expected, 1e-15));
-}
-
-TEST(State, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
-  RandomStream random(4, StreamPurpose::kWorld);
-  const auto made = small_map(random, 5);
-  State& state = *made;
-  state.predict(random_motion(random));
-  const Sighting s = random_sighting(random, 3, 2);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, 13);
-  H.leftCols<3>() = s.H_pose;
-  H.middleCols<2>(9) = s.H_landmark.leftCols<2>();
-  const Eigen::Matrix2d S = H * state.covariance() * H.transpose() + s.R;
-  EXPECT_TRUE(matrix_near(state.innovation_covariance(s), S, 1e-14));
-  const Eigen::MatrixXd C = state.covariance().topRows<3>() * H.transpose();
-  EXPECT_TRUE(matrix_near(state.pose_correlation(s), C, 1e-14));
 }
 
 TEST(State, RefusesAnInnovationCovarianceThatIsNotPositive) {

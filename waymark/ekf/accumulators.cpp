@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "waymark/kernels/add_scaled_rows.hpp"
+#include "waymark/kernels/layout.hpp"
 #include "waymark/kernels/symmetric_update.hpp"
 #include "waymark/kernels/triangular_solve.hpp"
 
@@ -24,7 +25,7 @@ Accumulators::Accumulators(std::size_t capacity)
       phi_(ld_ * ld_),
       minus_psi_(ld_ * ld_),
       tau_(ld_),
-      G_((2 * State::kMaxSightings + 1) * ld_) {}
+      G_((Update::kMostRows + 1) * ld_) {}
 
 void Accumulators::restart(std::size_t n) {
   n_ = 0;
@@ -71,10 +72,10 @@ void Accumulators::add_rows(double* out, const Touched& touched, int row) const 
   }
 }
 
-void Accumulators::project(std::span<const Sighting> sightings, const State& state) {
+void Accumulators::project(std::span<const Sighting> sightings, const StateLayout& layout) {
   double* g = G_.data();
   for (const Sighting& sighting : sightings) {
-    const Touched touched = state.touched(sighting, sighting.rows);
+    const Touched touched = layout.touched(sighting, sighting.rows);
     for (int r = 0; r < sighting.rows; ++r, g += ld_) {
       std::fill_n(g, n_, 0.0);
       add_rows(g, touched, r);

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/state_layout.hpp"
+#include "waymark/ekf/update.hpp"
 
 namespace waymark::ekf {
 
@@ -34,7 +36,7 @@ class Accumulators {
   void relax_errors(int pair, double rho);
 
   /// Before the state's update: G <- H phi.
-  void project(std::span<const Sighting> sightings, const State& state);
+  void project(std::span<const Sighting> sightings, const StateLayout& layout);
   /// After it.
   void absorb(const Gain& gain);
 

@@ -5,8 +5,6 @@
 #include <functional>
 #include <utility>
 
-#include "waymark/ekf/turn_jacobian.hpp"
-
 namespace waymark::ekf {
 namespace {
 
@@ -28,7 +26,7 @@ int slots_for(int capacity, const Compression& compression) {
 }
 
 /// P(row, :) J^T for the robot and the errors that something depends on.
-Eigen::Vector2d correlation(const State& state, std::size_t row, const Touched& touched) {
+Eigen::Vector2d correlation(const Belief& state, std::size_t row, const Touched& touched) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (Eigen::Index k = 0; k < touched.head; ++k)
     sum += state.covariance(row, touched.rows[static_cast<std::size_t>(k)]) * touched.J.col(k).head<2>();
@@ -44,7 +42,7 @@ CompressedState::CompressedState(int dimension, int capacity, Consistency consis
                    std::max(compression.onset, kSmallestRegion)},
       active_(dimension, region_capacity(capacity, compression_), consistency, threads, error_pairs),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
-      passive_(dimension, active_.head(), slots_for(capacity, compression_),
+      passive_(dimension, active_.layout().head, slots_for(capacity, compression_),
                slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
       local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
       base_(active_.offset(active_.capacity()), dimension),
@@ -111,7 +109,7 @@ bool CompressedState::propose(std::span<const Sighting> sightings) {
 void CompressedState::accept() {
   proposed_ = false;
   if (!local_sightings_.empty()) {
-    if (compressing_) since_.project(local_sightings_, active_);
+    if (compressing_) since_.project(local_sightings_, active_.layout());
     active_.accept();
     if (compressing_) since_.absorb(active_.gain());
   }
@@ -220,8 +218,9 @@ void CompressedState::activate(int slot) {
   const Recalled recalled = recall(slot);
   const auto n = static_cast<Eigen::Index>(active_.size());
   since_.append_known(base_.topRows(n), recalled.shear);
-  active_.insert(recalled.position, passive_.first_estimate(slot), cross_.data(),
-                 static_cast<std::size_t>(cross_.outerStride()), recalled.covariance);
+  active_.insert(
+      recalled.position, passive_.first_estimate(slot),
+      {dimension(), cross_.data(), static_cast<std::size_t>(cross_.outerStride()), recalled.covariance});
   enter(slot);
 }
 
@@ -270,15 +269,14 @@ Eigen::Vector3d CompressedState::displacement(int slot) const {
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
   moved.head(dimension()).noalias() =
       base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
-  if (active_.consistency() == Consistency::kInvariant)
-    moved.head<2>() = (turn_jacobian(since_.turn()) * moved.head<2>()).eval();
+  moved.head<2>() = Retraction(active_.consistency(), since_.turn()).displacement(moved.head<2>());
   return moved;
 }
 
 CompressedState::Recalled CompressedState::recall(int slot) const {
   const Eigen::Vector3d moved = displacement(slot);
   Recalled now{passive_.position(slot) + moved, Eigen::Vector3d::Zero(), passive_.covariance(slot)};
-  if (active_.consistency() == Consistency::kInvariant) now.shear << -moved.y(), moved.x(), 0.0;
+  now.shear.head<2>() = Retraction(active_.consistency(), since_.turn()).shear(moved.head<2>());
   const auto n = static_cast<Eigen::Index>(active_.size());
   for (int a = 0; a < dimension(); ++a) {
     since_.multiply_phi(base_.col(a).head(n), cross_.col(a).head(n));
@@ -308,8 +306,8 @@ Eigen::Matrix3d CompressedState::landmark_covariance(int index) const {
 
 Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
   if (is_active(index)) return active_.linearization_landmark(local_of(index));
-  return active_.consistency() == Consistency::kFej ? passive_.first_estimate(slot_of(index))
-                                                    : landmark(index);
+  return linearizes_at_first_estimates(active_.consistency()) ? passive_.first_estimate(slot_of(index))
+                                                              : landmark(index);
 }
 
 Sighting CompressedState::in_active(const Sighting& sighting) const {

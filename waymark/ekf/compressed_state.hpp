@@ -50,7 +50,6 @@ class CompressedState {
   [[nodiscard]] Eigen::Matrix3d landmark_covariance(int index) const;
   [[nodiscard]] Pose2 linearization_pose() const { return active_.linearization_pose(); }
   [[nodiscard]] Eigen::Vector3d linearization_landmark(int index) const;
-  void set_pose(const PoseEstimate& pose) { active_.set_pose(pose); }
   void place_robot(const PoseEstimate& pose) { active_.place_robot(pose); }
   void hold_landmarks() { active_.hold_landmarks(); }
   /// All landmarks together are the first region: there must be that many before the onset.

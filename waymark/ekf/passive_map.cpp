@@ -5,8 +5,8 @@
 #include <cassert>
 #include <numeric>
 
-#include "waymark/ekf/turn_jacobian.hpp"
 #include "waymark/kernels/add_scaled_rows.hpp"
+#include "waymark/kernels/layout.hpp"
 #include "waymark/kernels/symmetric_update.hpp"
 
 namespace waymark::ekf {
@@ -69,14 +69,14 @@ void PassiveMap::list_rows(std::span<const int> members, std::vector<std::size_t
     for (std::size_t at = offset(slot); at < offset(slot + 1); ++at) rows.push_back(at);
 }
 
-void PassiveMap::close(std::span<const int> members, const State& region, const Accumulators* since) {
+void PassiveMap::close(std::span<const int> members, const Belief& region, const Accumulators* since) {
   assert(done());
   list_rows(members, rows_);
   store(members, region);
   if (since != nullptr) take_over(*since, region);
 }
 
-void PassiveMap::store(std::span<const int> members, const State& region) {
+void PassiveMap::store(std::span<const int> members, const Belief& region) {
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (std::size_t j = i; j < rows_.size(); ++j) P(rows_[i], rows_[j]) = region.covariance(i, j);
   for (std::size_t k = 0; k < members.size(); ++k) {
@@ -87,7 +87,7 @@ void PassiveMap::store(std::span<const int> members, const State& region) {
   }
 }
 
-void PassiveMap::take_over(const Accumulators& since, const State& region) {
+void PassiveMap::take_over(const Accumulators& since, const Belief& region) {
   const std::size_t na = since.size();
   for (std::size_t i = 0; i < na; ++i) {
     for (std::size_t j = 0; j < na; ++j)
@@ -98,8 +98,7 @@ void PassiveMap::take_over(const Accumulators& since, const State& region) {
     heading_[i] = region.covariance(i, 2);
   }
   std::copy_n(since.tau(), na, tau_.data());
-  turn_ = since.turn();
-  shear_ = region.consistency() == Consistency::kInvariant;
+  retraction_ = Retraction(region.consistency(), since.turn());
   n_ = size();
   std::ranges::fill(inside_, 0);
   for (const std::size_t row : rows_) inside_[row] = 1;
@@ -134,8 +133,8 @@ void PassiveMap::do_next() {
   if (next_block_ * kColumns < n_) return settle(next_block_++);
   const std::size_t end = std::min(next_row_ + kRows, n_);
   kernels::symmetric_product_update(P_.data(), ld_, n_, B_.data(), psi_b_.data(), ld_, rows_.size(),
-                                    shear_ ? d_.data() : nullptr, shear_ ? e_.data() : nullptr,
-                                    {next_row_, end});
+                                    retraction_.turns() ? d_.data() : nullptr,
+                                    retraction_.turns() ? e_.data() : nullptr, {next_row_, end});
   next_row_ = end;
   working_ = next_row_ < n_;
 }
@@ -188,12 +187,11 @@ void PassiveMap::move_points(std::size_t begin, std::size_t end) {
   alignas(kernels::kAlignment) std::array<double, kColumns> moved{};
   kernels::add_scaled_rows(moved.data(), &B_[begin], ld_, rows_.size(), tau_.data(), end - begin);
   const auto stride = static_cast<std::size_t>(dimension_);
-  const Eigen::Matrix2d V = turn_jacobian(turn_);
-  for (std::size_t j = begin; shear_ && j < end; j += stride) {
+  for (std::size_t j = begin; retraction_.turns() && j < end; j += stride) {
     Eigen::Map<Eigen::Vector2d> ground(&moved[j - begin]);
-    ground = (V * ground).eval();
-    d_[j] = -ground.y();
-    d_[j + 1] = ground.x();
+    ground = retraction_.displacement(ground);
+    Eigen::Map<Eigen::Vector2d> d(&d_[j]);
+    d = retraction_.shear(ground);
   }
   const double half_c_theta = 0.5 * heading_[2];
   for (std::size_t j = begin; j < end; ++j) {
@@ -206,7 +204,7 @@ void PassiveMap::write_back(std::size_t begin, std::size_t end) {
   for (std::size_t k = 0; k < rows_.size(); ++k)
     for (std::size_t j = begin; j < end; ++j)
       if (!inside_[j])
-        P(rows_[k], j) = phi_b_[k * kColumns + j - begin] + (shear_ ? heading_[k] * d_[j] : 0.0);
+        P(rows_[k], j) = phi_b_[k * kColumns + j - begin] + (retraction_.turns() ? heading_[k] * d_[j] : 0.0);
 }
 
 /// P(i, j) as it will be when the work is done; both columns are settled.
@@ -215,7 +213,7 @@ double PassiveMap::present(std::size_t i, std::size_t j) {
   double p = P(row, column);
   if (!working_ || row < next_row_ || column >= n_ || inside_[row] || inside_[column]) return p;
   for (std::size_t k = 0; k < rows_.size(); ++k) p -= B_[k * ld_ + row] * psi_b_[k * ld_ + column];
-  return shear_ ? p + d_[row] * e_[column] + e_[row] * d_[column] : p;
+  return retraction_.turns() ? p + d_[row] * e_[column] + e_[row] * d_[column] : p;
 }
 
 Eigen::Vector3d PassiveMap::position(int slot) {

@@ -9,7 +9,8 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/background.hpp"
 #include "waymark/ekf/accumulators.hpp"
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/belief.hpp"
+#include "waymark/ekf/consistency.hpp"
 
 namespace waymark::ekf {
 
@@ -45,7 +46,7 @@ class PassiveMap {
   /// Closes a region, whose landmarks are in the slots `members`, in the state's order. `since` is what it
   /// did to the others since the last region was closed; null if there are no others. The work for the last
   /// region must be done.
-  void close(std::span<const int> members, const State& region, const Accumulators* since);
+  void close(std::span<const int> members, const Belief& region, const Accumulators* since);
 
   [[nodiscard]] bool done();
   /// Flop that are left to do.
@@ -75,8 +76,8 @@ class PassiveMap {
   [[nodiscard]] double present(std::size_t i, std::size_t j);
 
   void list_rows(std::span<const int> members, std::vector<std::size_t>& rows) const;
-  void store(std::span<const int> members, const State& region);
-  void take_over(const Accumulators& since, const State& region);
+  void store(std::span<const int> members, const Belief& region);
+  void take_over(const Accumulators& since, const Belief& region);
   void spend_credit();
   [[nodiscard]] double next_cost() const;
   void do_next();
@@ -106,8 +107,7 @@ class PassiveMap {
   Buffer minus_psi_;
   Buffer tau_;
   Buffer heading_;  // P_a,theta
-  bool shear_ = false;
-  double turn_ = 0.0;
+  Retraction retraction_{Consistency::kStandard, 0.0};
 
   std::vector<char> settled_;  // by block of columns
   std::size_t next_block_ = 0;

@@ -45,6 +45,40 @@ TextbookUpdate::TextbookUpdate(std::size_t most_rows, std::size_t largest_state)
       I_KH_(largest_state, largest_state),
       P_new_(largest_state, largest_state) {}
 
+bool TextbookUpdate::propose(const Covariance& covariance, const StateLayout& layout,
+                             std::span<const Sighting> sightings, double* increments) {
+  write_down(covariance, layout, sightings);
+  if (!solve()) return false;
+  for (std::size_t i = 0; i < covariance.size(); ++i) increments[i] = dx(i, 0);
+  return true;
+}
+
+void TextbookUpdate::correct(Covariance& covariance) {
+  correct();
+  for (std::size_t i = 0; i < covariance.size(); ++i)
+    for (std::size_t j = i; j < covariance.size(); ++j) covariance.row(i)[j] = P(i, j);
+}
+
+/// H, R, nu and P as dense matrices.
+void TextbookUpdate::write_down(const Covariance& covariance, const StateLayout& layout,
+                                std::span<const Sighting> sightings) {
+  std::size_t D = 0;
+  for (const Sighting& sighting : sightings) D += static_cast<std::size_t>(sighting.rows);
+  begin(D, covariance.size());
+  std::size_t row = 0;
+  for (const Sighting& sighting : sightings) {
+    const Touched t = layout.touched(sighting, sighting.rows);
+    for (int r = 0; r < sighting.rows; ++r, ++row) {
+      for (int k = 0; k < t.J.cols(); ++k) H(row, t.rows[static_cast<std::size_t>(k)]) = t.J(r, k);
+      for (int s = 0; s < sighting.rows; ++s)
+        R(row, row + static_cast<std::size_t>(s) - static_cast<std::size_t>(r)) = sighting.R(r, s);
+      nu(row, 0) = sighting.nu[r];
+    }
+  }
+  for (std::size_t i = 0; i < covariance.size(); ++i)
+    for (std::size_t j = 0; j < covariance.size(); ++j) P(i, j) = covariance(i, j);
+}
+
 void TextbookUpdate::begin(std::size_t rows, std::size_t size) {
   H.reset(rows, size);
   R.reset(rows, rows);

@@ -1,7 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
+
+#include "waymark/ekf/covariance.hpp"
+#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/state_layout.hpp"
 
 namespace waymark::ekf {
 
@@ -40,6 +45,11 @@ class TextbookUpdate {
  public:
   TextbookUpdate(std::size_t most_rows, std::size_t largest_state);
 
+  /// The update of a state, as Update::propose() and Update::correct(); increments: n.
+  [[nodiscard]] bool propose(const Covariance& covariance, const StateLayout& layout,
+                             std::span<const Sighting> sightings, double* increments);
+  void correct(Covariance& covariance);
+
   /// H and R are zero, everything else is to be set by the caller: nu has `rows` values, P is size x size.
   void begin(std::size_t rows, std::size_t size);
   /// Finds dx; H, P, R and nu stay. False if S is not positive definite.
@@ -54,6 +64,8 @@ class TextbookUpdate {
   DenseMatrix dx;  ///< n x 1
 
  private:
+  void write_down(const Covariance& covariance, const StateLayout& layout,
+                  std::span<const Sighting> sightings);
   [[nodiscard]] bool invert_innovation_covariance();
 
   DenseMatrix PHt_;        // n x D
