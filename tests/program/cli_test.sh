@@ -74,6 +74,9 @@ printf 'ekf:\n  capacity: 50\n  likelyhood: student\n' >wrong.yaml
 cp wrong.yaml kept.yaml
 refuses 2 'did you mean ekf.likelihood' config --migrate wrong.yaml
 cmp -s wrong.yaml kept.yaml || fail "config --migrate: changed a file that it refused"
+printf 'sim:\n  side_m: 3\n' >world.yaml
+does sim world.yaml -o world --set sim.speed_mps=1
+refuses 2 'nowhere.yaml' run sim:nowhere.yaml -o o
 
 # Instruction sets that there are not.
 WAYMARK_INSTRUCTION_SET=avx9 refuses 2 "WAYMARK_INSTRUCTION_SET: 'avx9'" --version
