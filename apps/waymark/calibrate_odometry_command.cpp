@@ -73,7 +73,7 @@ void add_calibrate_odometry(CLI::App& calibrate, Work& work) {
       "Wheel radii and track, or scales and bias of another odometry, from any log with landmarks",
       "Examples:\n"
       "  waymark calibrate odometry LOG -o out && waymark run LOG --config out/calibration.yaml\n"
-      "  waymark calibrate odometry LOG --set smooth.turn_scale_sigma=0.05\n\n"
+      "  waymark calibrate odometry LOG --set motion.turn_scale_sigma=0.05\n\n"
       "Writes calibration.yaml (for --config), calibration.json and report.html. What was believed before is "
       "in "
       "the keys smooth.*_sigma*.",

@@ -3,37 +3,89 @@
 
 #include <fmt/format.h>
 
+#include "waymark/core/names.hpp"
+
 #include "commands.hpp"
+#include "workbench/config/former_keys.hpp"
+#include "workbench/config/read_file.hpp"
+#include "workbench/logs/files.hpp"
 
 namespace waymark::app {
 namespace {
 
 struct ConfigRequest {
+  std::string prefix;
+  bool all = false;
   std::string validate;
+  std::string migrate;
   SettingsFlags flags;
 };
 
+/// What is written can be read; where it cannot, the file stays.
+Result<void> migrate(const std::string& file) {
+  const auto text = read_file(file);
+  if (!text) return text.error();
+  const auto migrated = migrate_config(*text, file);
+  if (!migrated) return migrated.error();
+  Config config;
+  if (auto valid = describe(config).load_text(*migrated, file); !valid) return valid;
+  if (*migrated == *text) {
+    fmt::print("{}: nothing to change\n", file);
+    return {};
+  }
+  if (auto written = write_file(file, *migrated); !written) return written;
+  fmt::print("{}: rewritten\n", file);
+  return {};
+}
+
+Result<void> print(const ConfigRequest& request, Config& config) {
+  const Schema schema = describe(config);
+  const std::string yaml = schema.to_yaml([&](const std::string& key) {
+    if (!request.prefix.empty()) return key.starts_with(request.prefix);
+    return request.all || schema.is_shown(key);
+  });
+  if (yaml.empty()) {
+    const std::string near = nearest_name(request.prefix, schema.keys());
+    return Error{fmt::format("no key begins with {}{}; `waymark config --all` lists all keys", request.prefix,
+                             near.empty() ? "" : fmt::format("; did you mean {}?", near))};
+  }
+  fmt::print("{}", yaml);
+  return {};
+}
+
 Result<void> config(const ConfigRequest& request) {
+  if (!request.migrate.empty()) return migrate(request.migrate);
   UserSettings user = request.flags.settings();
   if (!request.validate.empty()) user.files.emplace_back(request.validate);
   auto config = resolve_config(user);
   if (!config) return config.error();
-  if (!request.validate.empty())
-    fmt::print("{}: valid\n", request.validate);
-  else
-    fmt::print("{}", describe(*config).to_yaml());
+  if (request.validate.empty()) return print(request, *config);
+  fmt::print("{}: valid\n", request.validate);
   return {};
 }
 
 }  // namespace
 
 void add_config(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("config", "Print the full config with comments, or validate a file");
+  auto* command = app.add_subcommand("config", "Print config keys with comments; validate or migrate a file");
   auto request = std::make_shared<ConfigRequest>();
-  command->add_option("--validate", request->validate, "check this file and say what is wrong with it")
-      ->type_name("FILE");
+  command->add_option("prefix", request->prefix, "a part: all keys that begin so, as sensor or camera.mount")
+      ->type_name("PREFIX");
+  command->add_flag("--all", request->all, "all keys, those that are seldom set too");
+  auto* validate =
+      command->add_option("--validate", request->validate, "check this file and say what is wrong with it")
+          ->type_name("FILE");
+  command
+      ->add_option(
+          "--migrate", request->migrate,
+          "rewrite this file of an earlier version: keys that are gone become comments, renamed ones "
+          "get their new names")
+      ->type_name("FILE")
+      ->excludes(validate);
   request->flags.add_to(*command);
-  command->footer("Example:\n  waymark config > my.yaml\n  waymark config --validate my.yaml");
+  command->footer(
+      "Examples:\n  waymark config > my.yaml\n  waymark config sensor\n  waymark config --validate my.yaml\n"
+      "  waymark config --migrate old.yaml");
   command->callback([&work, request] { work = [request] { return config(*request); }; });
 }
 

@@ -61,20 +61,20 @@ TEST(StudyMoving, OfACameraFindsPixelsAndShakingThatIsMoreThanAssumed) {
     return study("sim:marker-room",
                  {"sim.laps=1", "sim.image_rate_hz=6", "markers.side_sigma_px=0.2", shaking});
   };
-  const MovingStudy found = of_room("markers.mount_sigma_deg=0.1");
+  const MovingStudy found = of_room("camera.vibration_deg=0.1");
   const auto* pixels = find(found, "markers.side_sigma_px");
   ASSERT_NE(pixels, nullptr);
   EXPECT_NEAR(pixels->value, 0.08, 4.0 * pixels->sigma);
   EXPECT_LT(pixels->sigma, 0.01);
-  EXPECT_TRUE(find(found, "markers.mount_sigma_deg")->is_untold);
-  EXPECT_EQ(find(found, "markers.mount_sigma_deg")->value, 0.1);
-  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("markers.mount_sigma_deg stays")));
+  EXPECT_TRUE(find(found, "camera.vibration_deg")->is_untold);
+  EXPECT_EQ(find(found, "camera.vibration_deg")->value, 0.1);
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("camera.vibration_deg stays")));
   EXPECT_EQ(find(found, "sensor.range_sigma_m"), nullptr);
   Config config;
   Schema schema = describe(config);
   ASSERT_TRUE(schema.load_text(to_yaml(found), "calibration.yaml").ok());
   EXPECT_NEAR(config.markers.side_sigma_px, pixels->value, 1e-5);
-  EXPECT_GT(find(of_room("markers.mount_sigma_deg=1e-5"), "markers.mount_sigma_deg")->value, 1e-4);
+  EXPECT_GT(find(of_room("camera.vibration_deg=1e-5"), "camera.vibration_deg")->value, 1e-4);
 }
 
 TEST(StudyMoving, SaysWhereNothingTellsTheDelay) {

@@ -18,8 +18,7 @@ TEST(CameraKeys, HaveDefaultsWithinTheirLimits) {
   ASSERT_TRUE(schema.load_text(schema.to_yaml(), "defaults").ok()) << "a default is beyond its own limits";
   ASSERT_TRUE(schema.set("tracker.budget", "clock", "test").ok());
   EXPECT_EQ(tracker.budget.kind, vision::BudgetKind::kClock);
-  EXPECT_FALSE(schema.set("corners.arc", "17", "test").ok()) << "the circle has 16 pixels";
-  EXPECT_FALSE(schema.set("tracker.patch_px", "0", "test").ok());
+  EXPECT_FALSE(schema.set("corners.threshold", "0", "test").ok());
 }
 
 }  // namespace

@@ -22,7 +22,14 @@ TEST(FilterKeys, SetFastSlam) {
   EXPECT_TRUE(schema.set("fastslam.particles", "400", "--set").ok());
   EXPECT_EQ(options.particles, 400);
   EXPECT_FALSE(schema.set("fastslam.particles", "0", "--set").ok());
-  EXPECT_FALSE(schema.set("fastslam.resample_below", "1.5", "--set").ok());
+  EXPECT_EQ(schema.value("fastslam.always_resample"), "false");
+  EXPECT_TRUE(schema.set("fastslam.always_resample", "true", "--set").ok());
+  EXPECT_EQ(options.resample_below, 1.0);
+  EXPECT_EQ(options.temper_below, 0.0);
+  EXPECT_EQ(schema.value("fastslam.always_resample"), "true");
+  EXPECT_TRUE(schema.set("fastslam.always_resample", "false", "--set").ok());
+  EXPECT_EQ(options.resample_below, FastSlamOptions{}.resample_below);
+  EXPECT_EQ(options.temper_below, FastSlamOptions{}.temper_below);
 }
 
 TEST(FilterKeys, SetSmoothing) {
@@ -33,10 +40,8 @@ TEST(FilterKeys, SetSmoothing) {
   EXPECT_FALSE(options.run);
   EXPECT_TRUE(schema.set("smooth.run", "true", "test").ok());
   EXPECT_TRUE(schema.set("smooth.odometry_is_commanded", "true", "test").ok());
-  EXPECT_TRUE(schema.set("smooth.turn_bias_sigma_degps", "0", "test").ok());
   EXPECT_TRUE(options.run);
   EXPECT_TRUE(options.odometry_is_commanded);
-  EXPECT_EQ(options.turn_bias_sigma_degps, 0.0);
   EXPECT_FALSE(schema.set("smooth.robust_dof", "0", "test").ok());
 }
 

@@ -38,8 +38,6 @@ TEST(RobotKeys, SetTheOdometry) {
   Schema schema;
   describe(schema, options);
   ASSERT_TRUE(schema.load_text(schema.to_yaml(), "defaults").ok()) << "a default is beyond its own limits";
-  ASSERT_TRUE(schema.set("motion.arc", "article", "test").ok());
-  EXPECT_EQ(options.arc, ArcModel::kArticle);
   ASSERT_TRUE(schema.set("wheels.track_m", "0.32", "test").ok());
   EXPECT_EQ(options.wheels.track_m, 0.32);
   EXPECT_FALSE(schema.set("motion.turn_var_rad2_per_m", "-1e-3", "test").ok());

@@ -128,7 +128,7 @@ TEST_F(ConfigTest, SuggestsTheNearestKey) {
   EXPECT_EQ(error_of("gate.probabilty", "1"),
             "here: unknown key gate.probabilty; did you mean gate.probability?");
   EXPECT_THAT(error_of("filter.particle", "1"), HasSubstr("did you mean filter.particles?"));
-  EXPECT_THAT(error_of("qqqqqqqqqqqqqqqqqqqq", "1"), HasSubstr("`waymark config` lists all keys"));
+  EXPECT_THAT(error_of("qqqqqqqqqqqqqqqqqqqq", "1"), HasSubstr("`waymark config --all` lists all keys"));
 }
 
 TEST_F(ConfigTest, SuggestsTheRightSection) {

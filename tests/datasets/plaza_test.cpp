@@ -18,10 +18,9 @@ using test::TempFolder;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// A robot that goes 1 m ahead (`sign` 1) or back (-1) and then turns left on an arc.
-std::string mat_run(double sign, const Eigen::MatrixXd& ranges) {
-  const Eigen::MatrixXd truth{
-      {10.0, 1.0, 2.0, 0.0}, {11.0, 1.0 + sign, 2.0, 0.0}, {12.0, 1.0 + 2 * sign, 2.1, 0.1}};
+/// A robot that goes 1 m ahead and then turns left on an arc.
+std::string mat_run(const Eigen::MatrixXd& ranges) {
+  const Eigen::MatrixXd truth{{10.0, 1.0, 2.0, 0.0}, {11.0, 2.0, 2.0, 0.0}, {12.0, 3.0, 2.1, 0.1}};
   const Eigen::MatrixXd odometry{{11.0, 1.0, 0.0}, {12.0, 1.0, 0.1}};
   const Eigen::MatrixXd beacons{{0.0, -5.0, 6.0}, {5.0, 7.0, 8.0}};
   return test::mat_header() + test::mat_variable("GT", truth) + test::mat_variable("DR", odometry) +
@@ -30,8 +29,9 @@ std::string mat_run(double sign, const Eigen::MatrixXd& ranges) {
 
 const Eigen::MatrixXd kRanges{{10.5, 2.0, 5.0, 6.5}, {10.25, 2.0, 0.0, 7.5}};
 
-std::unique_ptr<Source> open_plaza(const TempFolder& folder, const std::string& bytes, bool fix = true) {
-  const auto file = MatFile::open(folder.write("Plaza7_.mat", bytes));
+std::unique_ptr<Source> open_plaza(const TempFolder& folder, const std::string& bytes,
+                                   const std::string& name = "Plaza7_.mat", bool fix = true) {
+  const auto file = MatFile::open(folder.write(name, bytes));
   EXPECT_TRUE(file.ok()) << file.error().message;
   EXPECT_TRUE(is_plaza(*file));
   auto source = open_plaza(*file, fix);
@@ -41,7 +41,7 @@ std::unique_ptr<Source> open_plaza(const TempFolder& folder, const std::string& 
 
 TEST(Plaza, SumsOdometryUpAlongArcsFromTheFirstTruth) {
   const TempFolder folder;
-  const auto source = open_plaza(folder, mat_run(1.0, kRanges));
+  const auto source = open_plaza(folder, mat_run(kRanges));
   EXPECT_EQ(source->info().name, "Plaza7");
   const auto events = test::read_all(*source).events;
   const auto poses = only<OdometryPose>(events);
@@ -56,7 +56,7 @@ TEST(Plaza, SumsOdometryUpAlongArcsFromTheFirstTruth) {
 
 TEST(Plaza, RangesKeepTheirBeaconAndComeInTheOrderOfTime) {
   const TempFolder folder;
-  const auto source = open_plaza(folder, mat_run(1.0, kRanges));
+  const auto source = open_plaza(folder, mat_run(kRanges));
   const auto ranges = only<Observations>(test::read_all(*source).events);
   ASSERT_EQ(ranges.size(), 2U);
   EXPECT_EQ(ranges[0].first, parse_stamp("10.25"));
@@ -70,12 +70,16 @@ TEST(Plaza, RangesKeepTheirBeaconAndComeInTheOrderOfTime) {
 
 TEST(Plaza, RobotThatDrivesBackwardsGoesNegativeDistances) {
   const TempFolder folder;
-  const auto fixed = open_plaza(folder, mat_run(-1.0, kRanges));
+  const auto fixed = open_plaza(folder, mat_run(kRanges), "Plaza2_.mat");
   EXPECT_NEAR(only<OdometryPose>(test::read_all(*fixed).events)[1].second.T_odom_robot.x_m, -1.0, 1e-12);
   EXPECT_THAT(fixed->notes(), Contains(HasSubstr("drives backwards")));
-  const auto as_published = open_plaza(folder, mat_run(-1.0, kRanges), false);
+  const auto as_published = open_plaza(folder, mat_run(kRanges), "Plaza2_.mat", false);
   EXPECT_NEAR(only<OdometryPose>(test::read_all(*as_published).events)[1].second.T_odom_robot.x_m, 1.0,
               1e-12);
+  folder.write("Plaza2_DR.txt", "11 1 0\n12 1 0.1\n");
+  folder.write("Plaza2_TD.txt", "10.5 2 5 6.5\n");
+  const auto text = open_plaza_text(plaza_text_runs(folder.path()).at(0), true).value();
+  EXPECT_NEAR(only<OdometryPose>(test::read_all(*text).events)[1].second.T_odom_robot.x_m, -1.0, 1e-12);
 }
 
 TEST(Plaza, TextFilesGiveTheSameRunWithoutTruth) {
@@ -84,8 +88,8 @@ TEST(Plaza, TextFilesGiveTheSameRunWithoutTruth) {
   folder.write("Plaza7_TD.txt", "  1.0500e+001\t 2 \t 5\t 6.5\t\n 10.25 2 0 7.5\n");
   const auto runs = plaza_text_runs(folder.path());
   ASSERT_EQ(runs.size(), 1U);
-  const auto text = open_plaza_text(runs[0]).value();
-  const auto mat = open_plaza(folder, mat_run(1.0, kRanges));
+  const auto text = open_plaza_text(runs[0], true).value();
+  const auto mat = open_plaza(folder, mat_run(kRanges));
   EXPECT_EQ(text->info().name, "Plaza7");
   const auto text_events = test::read_all(*text).events;
   const auto mat_events = test::read_all(*mat).events;
@@ -103,7 +107,7 @@ TEST(Plaza, TextFilesGiveTheSameRunWithoutTruth) {
 TEST(Plaza, ImpossibleRowsAreNamed) {
   const TempFolder folder;
   const auto error_of = [&folder](const Eigen::MatrixXd& ranges) {
-    const auto file = MatFile::open(folder.write("x.mat", mat_run(1.0, ranges))).value();
+    const auto file = MatFile::open(folder.write("x.mat", mat_run(ranges))).value();
     return open_plaza(file, true).error().message;
   };
   EXPECT_THAT(error_of(Eigen::MatrixXd{{10.0, 2.0, 5.0, -1.0}}),

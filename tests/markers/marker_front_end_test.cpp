@@ -194,9 +194,10 @@ TEST(MarkerFrontEnd, NoticesJumpsWhereAFifthOfTheSightingsIsRefused) {
 
 /// The first seconds of a drive through a rendered room.
 Result<Recording> drive(const std::vector<std::string>& assignments, double seconds = 4.0,
-                        const std::string& scenario = "marker-room") {
+                        const std::string& scenario = "marker-room", bool own_thread = true) {
   auto opened = open_input("sim:" + scenario, {{}, assignments});
   if (!opened) return opened.error();
+  opened->config.markers.own_thread = own_thread;
   return record(*opened->source, opened->config, {0.0, seconds});
 }
 
@@ -219,8 +220,7 @@ TEST(MarkerFrontEnd, PutsTheMarkersOfARoomOnTheMap) {
 }
 
 TEST(MarkerFrontEnd, AThreadOfItsOwnChangesNothing) {
-  const auto with = drive({"markers.own_thread=true"}, 3.0),
-             without = drive({"markers.own_thread=false"}, 3.0);
+  const auto with = drive({}, 3.0, "marker-room", true), without = drive({}, 3.0, "marker-room", false);
   ASSERT_TRUE(with.ok() && without.ok());
   ASSERT_EQ(with->trajectory.size(), without->trajectory.size());
   for (std::size_t i = 0; i < with->trajectory.size(); ++i) {

@@ -47,8 +47,36 @@ refuses 2 'known, nearest, jcbb or ml' run sim:forest -o o --associate guess
 refuses 2 'the EKF takes known, nearest or jcbb' run sim:forest -o o --associate ml
 refuses 2 'FastSLAM takes known or ml' run sim:forest -o o --filter fastslam --associate jcbb
 refuses 2 'nowhere.yaml' run sim:square -o o --config nowhere.yaml
-printf 'ekf:\n  capacity: -3\n' >bad.yaml
+printf 'map:\n  capacity: -3\n' >bad.yaml
 refuses 2 'bad.yaml:2' config --validate bad.yaml
+
+# Config keys, shown, all and in part; those of earlier versions.
+does config
+grep -q 'particles:' out.txt || fail "config: a key that pages name is not shown"
+! grep -q 'wander_px:' out.txt || fail "config: shows a key that no page tells to set"
+does config --all
+grep -q 'wander_px:' out.txt || fail "config --all: lacks a key"
+does config sensor
+[ "$(grep -vcE '^ |^$|^sensor:' out.txt)" -eq 0 ] || fail "config sensor: prints other sections"
+refuses 2 'did you mean' config senzor
+refuses 2 'fastslam.kld_error is gone' run sim:square -o o --set fastslam.kld_error=0.05
+printf 'seed: 3\nekf:\n  capacity: 50  # small\n  likelihood: student\n' >old.yaml
+refuses 2 'old.yaml:3: ekf.capacity is now map.capacity' run sim:square -o o --config old.yaml
+does config --migrate old.yaml
+does config --validate old.yaml
+does config map --config old.yaml
+grep -q 'capacity: 50' out.txt || fail "config --migrate: lost a value: $(cat old.yaml)"
+does config --migrate old.yaml
+grep -q 'nothing to change' out.txt || fail "config --migrate: changed a migrated file"
+printf 'ekf: {capacity: 50, likelihood: student}\n' >flow.yaml
+refuses 2 'change it by hand' config --migrate flow.yaml
+printf 'ekf:\n  capacity: 50\n  likelyhood: student\n' >wrong.yaml
+cp wrong.yaml kept.yaml
+refuses 2 'did you mean ekf.likelihood' config --migrate wrong.yaml
+cmp -s wrong.yaml kept.yaml || fail "config --migrate: changed a file that it refused"
+printf 'sim:\n  side_m: 3\n' >world.yaml
+does sim world.yaml -o world --set sim.speed_mps=1
+refuses 2 'nowhere.yaml' run sim:nowhere.yaml -o o
 
 # Instruction sets that there are not.
 WAYMARK_INSTRUCTION_SET=avx9 refuses 2 "WAYMARK_INSTRUCTION_SET: 'avx9'" --version
@@ -97,7 +125,7 @@ does run log -o second --from 1e9 --map first/map.waymark
 cmp -s <(sed 1,3d first/map.waymark) <(sed 1,3d second/map.waymark) || fail 'a map that was only read and written differs'
 does run log -o second --from 20 --map first/map.waymark
 refuses 2 'map.file: a saved map needs filter=ekf' run log -o o --map first/map.waymark --filter fastslam
-refuses 2 'ekf.capacity=3' run log -o o --map first/map.waymark --set ekf.capacity=3
+refuses 2 'map.capacity=3' run log -o o --map first/map.waymark --set map.capacity=3
 refuses 2 'nowhere.waymark' run log -o o --map nowhere.waymark
 sed 's/^waymark_map: 1/waymark_map: 9/' first/map.waymark >broken.waymark
 refuses 2 "broken.waymark:1: version '9'" run log -o o --map broken.waymark
@@ -330,7 +358,7 @@ else
 fi
 
 # Tuning: a config that can be run with, the same from any number of threads, and what it refuses.
-quick_tune=(sim:square --set sim.side_m=2 --set sim.speed_mps=1 --set sim.landmarks=8 --set ekf.capacity=8)
+quick_tune=(sim:square --set sim.side_m=2 --set sim.speed_mps=1 --set sim.landmarks=8 --set map.capacity=8)
 sigmas=(--keys sensor.range_sigma_m,sensor.bearing_sigma_deg)
 does tune "${quick_tune[@]}" "${sigmas[@]}" -o t1 --threads 1
 grep -q 'good' out.txt || fail 'tune does not say how flat it is'

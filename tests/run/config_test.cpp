@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "support/io_support.hpp"
+#include "workbench/config/former_keys.hpp"
+#include "workbench/config/read_file.hpp"
 
 namespace waymark {
 namespace {
@@ -34,6 +36,43 @@ TEST(Config, EveryKeyHasAUniqueName) {
   auto keys = describe(config).keys();
   std::ranges::sort(keys);
   EXPECT_EQ(std::ranges::adjacent_find(keys), keys.end());
+}
+
+TEST(Config, FormerKeysAreNoneAndWhatReplacedThemIsOne) {
+  Config config;
+  const Schema schema = describe(config);
+  for (const FormerKey& each : former_keys()) {
+    EXPECT_FALSE(schema.has(each.key)) << each.key;
+    EXPECT_TRUE(each.now.empty() || schema.has(each.now)) << each.now;
+  }
+}
+
+TEST(Config, ShowsTheKeysThatAPageTellsAUserToSet) {
+  std::string pages;
+  for (const auto& entry : std::filesystem::directory_iterator(WAYMARK_CONFIG_DIR "/../docs"))
+    if (entry.path().extension() == ".md") pages += read_file(entry.path()).value();
+  Config config;
+  const Schema schema = describe(config);
+  for (const auto& key : schema.keys())
+    if (schema.is_shown(key)) EXPECT_NE(pages.find(key), std::string::npos) << key;
+}
+
+TEST(Config, OneKeySetsWhatSeveralPartsShare) {
+  const auto config = resolve_config(
+      {{}, {"camera.vibration_deg=0.2", "motion.turn_scale_sigma=0.01", "pixel.most_candidates=5"}});
+  ASSERT_TRUE(config.ok());
+  EXPECT_EQ(config->pixel.vibration_deg, 0.2);
+  EXPECT_EQ(config->markers.mount_sigma_deg, 0.2);
+  EXPECT_EQ(config->ekf.odometry.turn_scale_sigma, 0.01);
+  EXPECT_EQ(config->smooth.turn_scale_sigma, 0.01);
+  EXPECT_EQ(config->pixel.most_candidates, 5);
+  EXPECT_EQ(config->tracker.new_corners.most_candidates, 5);
+  const Config usual;
+  EXPECT_EQ(usual.pixel.vibration_deg, usual.markers.mount_sigma_deg);
+  EXPECT_EQ(usual.ekf.odometry.speed_scale_sigma, usual.smooth.speed_scale_sigma);
+  EXPECT_EQ(usual.ekf.odometry.turn_scale_sigma, usual.smooth.turn_scale_sigma);
+  EXPECT_EQ(usual.ekf.odometry.turn_bias_sigma_degps, usual.smooth.turn_bias_sigma_degps);
+  EXPECT_EQ(usual.pixel.most_candidates, usual.tracker.new_corners.most_candidates);
 }
 
 TEST(Config, LaterSettingsWin) {
@@ -94,7 +133,8 @@ TEST(Config, AnUnknownScenarioNamesTheNearest) {
 
 TEST(Config, EveryShippedConfigIsValid) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(WAYMARK_CONFIG_DIR)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(WAYMARK_CONFIG_DIR)) {
+    if (!entry.is_regular_file()) continue;
     const auto config = resolve_config({{entry.path()}, {}});
     EXPECT_TRUE(config.ok()) << config.error().message;
     ++files;

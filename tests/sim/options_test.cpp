@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/io_support.hpp"
+
 namespace waymark::sim {
 namespace {
 
@@ -26,6 +28,27 @@ TEST(SimOptions, ScenariosDriveDifferentPaths) {
   EXPECT_EQ(scenario("study")->path.laps, 2);
   EXPECT_EQ(scenario("report-l-shape")->path.shape, Shape::kLShape);
   EXPECT_EQ(scenario("report-square")->wheels.odometry, OdometryKind::kVelocity);
+}
+
+TEST(SimOptions, AFileIsAScenarioToo) {
+  const test::TempFolder folder;
+  const auto file = folder.write("mine.yaml", "sim:\n  path: loop\n  landmarks: 5\n");
+  const auto mine = scenario(file.string());
+  ASSERT_TRUE(mine.ok()) << mine.error().message;
+  EXPECT_EQ(mine->path.shape, Shape::kLoop);
+  EXPECT_EQ(mine->world.landmarks, 5);
+  EXPECT_EQ(mine->world.max_offset_m, SimOptions{}.world.max_offset_m);
+  EXPECT_THAT(scenario(folder.write("bad.yaml", "sim:\n  lap: 5\n").string()).error().message,
+              HasSubstr("bad.yaml:2: unknown key sim.lap; did you mean sim.laps?"));
+  EXPECT_THAT(scenario("nowhere.yaml").error().message, HasSubstr("nowhere.yaml"));
+}
+
+TEST(SimOptions, EveryScenarioIsThatOfItsFile) {
+  EXPECT_EQ(scenario("study")->wheels.var_m2_per_m, 2.9e-4);
+  EXPECT_EQ(scenario("report-square")->wheels.slip_turn_var_rad2_per_m, 0.05 * 0.05 * 0.1 / 0.3);
+  EXPECT_FALSE(scenario("forest")->sensor.identities);
+  EXPECT_EQ(scenario("marker-room")->room.markers, 12);
+  EXPECT_EQ(scenario("corridor")->room.scene, SceneKind::kCorridor);
 }
 
 TEST(SimOptions, UnknownScenarioNamesTheNearest) {

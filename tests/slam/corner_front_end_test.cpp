@@ -107,9 +107,10 @@ TEST(CornerFrontEnd, PicturesAreIgnoredWhereNobodyLooks) {
 }
 
 TEST(CornerFrontEnd, TakesNoMemoryOnceTheMapIsFull) {
-  auto opened = open_input("sim:room", {{}, {"pixel.capacity=20", "sim.speed_mps=0.2"}});
+  auto opened = open_input("sim:room", {{}, {"sim.speed_mps=0.2"}});
   ASSERT_TRUE(opened.ok());
-  const Config& config = opened->config;
+  Config& config = opened->config;
+  config.pixel.capacity = 20;
   PixelSlam filter(config.pixel, config.camera);
   CornerFrontEnd front_end(filter, config.tracker, config.search, Camera(config.camera), 1);
   constexpr int kPictures = 240, kCounted = 120;

@@ -12,7 +12,7 @@ namespace {
 /// A simulated log whose own noise is known: near the top of its likelihood.
 TuneProblem problem(std::vector<std::string> keys) {
   TuneRequest request{.logs = {"sim:square"}, .user = test::quick_plan({}).user, .keys = std::move(keys)};
-  request.user.assignments.emplace_back("ekf.capacity=8");
+  request.user.assignments.emplace_back("map.capacity=8");
   return TuneProblem::open(request).value();
 }
 

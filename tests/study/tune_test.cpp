@@ -20,7 +20,7 @@ constexpr double kBearingSigma_deg = 1.5;
 TuneRequest request(int threads = 1) {
   TuneRequest request{.logs = {"sim:square"}, .user = test::quick_plan({}).user, .threads = threads};
   for (const char* setting : {"sim.range_sigma_m=0.08", "sim.bearing_sigma_deg=1.5",
-                              "sensor.range_sigma_m=0.24", "sensor.bearing_sigma_deg=0.5", "ekf.capacity=8"})
+                              "sensor.range_sigma_m=0.24", "sensor.bearing_sigma_deg=0.5", "map.capacity=8"})
     request.user.assignments.emplace_back(setting);
   request.keys = {"sensor.range_sigma_m", "sensor.bearing_sigma_deg"};
   return request;

@@ -317,22 +317,17 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
   }
 }
 
-TEST(TrackerOptions, OfTheArticleAreSetByKeys) {
+TEST(TrackerOptions, AreSetByKeys) {
   TrackerOptions options;
   Schema schema;
   describe(schema, options);
   for (const char* assignment :
-       {"tracker.kernels=scalar", "tracker.warp=false", "tracker.subpixel=false", "tracker.patch_px=11",
-        "tracker.budget=clock", "tracker.frame_budget_ms=5", "corners.arc=9"})
+       {"tracker.wanted=12", "tracker.budget=clock", "tracker.frame_budget_ms=5", "corners.threshold=9"})
     EXPECT_TRUE(schema.set_assignment(assignment, "here").ok()) << assignment;
-  EXPECT_EQ(options.instructions, kernels::Instructions::kScalar);
-  EXPECT_FALSE(options.finder.warp);
-  EXPECT_FALSE(options.finder.subpixel);
-  EXPECT_EQ(options.finder.patch_px, 11);
+  EXPECT_EQ(options.new_corners.wanted, 12);
   EXPECT_EQ(options.budget.kind, BudgetKind::kClock);
   EXPECT_EQ(options.budget.per_frame_ms, 5.0);
-  EXPECT_EQ(options.corners.arc, 9);
-  EXPECT_FALSE(schema.set_assignment("tracker.patch_px=17", "here").ok());
+  EXPECT_EQ(options.corners.threshold, 9);
   TrackerOptions again;
   Schema other;
   describe(other, again);

@@ -7,8 +7,8 @@ namespace waymark {
 /// What may be wrong with the odometry always, and is estimated beside path and map.
 struct OdometryStateOptions {
   bool estimate = false;
-  double speed_scale_sigma = 0.1;
-  double turn_scale_sigma = 0.1;
+  double speed_scale_sigma = 0.05;
+  double turn_scale_sigma = 0.05;
   double turn_bias_sigma_degps = 0.1;
 
   [[nodiscard]] OdometryErrors sigmas() const;

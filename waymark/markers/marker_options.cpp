@@ -46,7 +46,7 @@ Result<MarkerSet> marker_set(const MarkerOptions& options) {
   if (options.dictionary.empty())
     return Error{
         "markers.dictionary: which markers are to be found? Set it to the name of their dictionary, for "
-        "example 4x4_50 or apriltag_36h11; `waymark config` lists all"};
+        "example 4x4_50 or apriltag_36h11; `waymark config markers` lists all"};
   const auto dictionary = find_marker_dictionary(options.dictionary);
   if (!dictionary) return dictionary.error();
   auto sizes_m = parse_sizes(options.sizes_m, dictionary->size);

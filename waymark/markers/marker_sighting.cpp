@@ -33,7 +33,7 @@ const char* describe(Refusal refusal) {
     case Refusal::kUnclear:
       return "not all of their sides can be seen clearly";
     case Refusal::kEdgeOn:
-      return "seen edge-on, more than markers.max_tilt_deg";
+      return "seen edge-on";
     case Refusal::kDuplicate:
       return "their identity is twice in one picture";
   }

@@ -34,10 +34,10 @@ struct OdometryNoise {
 };
 
 /// When the robot stands, so that what its odometry turns is an error of its own: it reports less speed and
-/// less turning than this. Zeros: never.
+/// less turning than this. A speed of zero: never.
 struct StandingOptions {
   double below_mps = 0.0;
-  double below_radps = 0.0;
+  double below_radps = 0.02;
 };
 
 /// Whether an increment is laid along the chord of its exact arc, or is as long as the arc (the 2012

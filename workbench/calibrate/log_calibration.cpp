@@ -16,8 +16,8 @@ constexpr double kSettled = 0.05;
 
 /// Wide enough that what the log says decides.
 std::vector<std::string> wide_priors(Subject subject) {
-  std::vector<std::string> keys{"smooth.speed_scale_sigma=0.3", "smooth.turn_scale_sigma=0.3",
-                                "smooth.turn_bias_sigma_degps=2", "smooth.turn_per_m_sigma_deg=20",
+  std::vector<std::string> keys{"motion.speed_scale_sigma=0.3", "motion.turn_scale_sigma=0.3",
+                                "motion.turn_bias_sigma_degps=2", "smooth.turn_per_m_sigma_deg=20",
                                 // Stamps jitter, wheels give: on short legs that outweighs the motion.
                                 "smooth.least_leg_m=0.1", "smooth.least_leg_deg=10"};
   if (subject == Subject::kMount)

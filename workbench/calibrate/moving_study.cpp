@@ -19,7 +19,7 @@ constexpr int kMostSmoothings = 15;
 /// What moves by less of its standard deviation has settled.
 constexpr double kSettledPart = 0.2;
 constexpr const char* kDelayKey = "sensor.delay_s";
-constexpr const char* kShakingKey = "markers.mount_sigma_deg";
+constexpr const char* kShakingKey = "camera.vibration_deg";
 
 /// One run over the log.
 struct Run {

@@ -4,24 +4,24 @@ namespace waymark {
 
 void describe(Schema& schema, OdometryOptions& o) {
   schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0},
-              "radius of the left wheel, m; 0: the log says");
+              "radius of the left wheel, m; 0: the log says", Shown::kAlways);
   schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0},
-              "radius of the right wheel, m; 0: the log says");
+              "radius of the right wheel, m; 0: the log says", Shown::kAlways);
   schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0},
-              "distance between the wheels, m; 0: the log says");
+              "distance between the wheels, m; 0: the log says", Shown::kAlways);
   schema.real(
       "car.wheel_base_m", o.car.wheel_base_m, {0.0, 100.0},
       "of a steered car: from the rear axle, where its origin is, to the front one, m; 0: the log says");
   schema.real("car.encoder_offset_m", o.car.encoder_offset_m, {-10.0, 10.0},
               "how far left of the middle the rear wheel is whose speed is measured, m");
   schema.real("motion.wheel_var_m2_per_m", o.noise.wheel_var_m2_per_m, {0.0, 1.0},
-              "error variance of each wheel per metre it rolls");
+              "error variance of each wheel per metre it rolls", Shown::kAlways);
   schema.real("motion.forward_var_m2_per_m", o.noise.forward_var_m2_per_m, {0.0, 1.0},
               "forward slip variance per metre driven");
   schema.real("motion.lateral_var_m2_per_m", o.noise.lateral_var_m2_per_m, {0.0, 1.0},
               "sideways slip variance per metre driven");
   schema.real("motion.turn_var_rad2_per_rad", o.noise.turn_var_rad2_per_rad, {0.0, 10.0},
-              "turning error variance per radian turned");
+              "turning error variance per radian turned", Shown::kAlways);
   schema.real("motion.turn_var_rad2_per_m", o.noise.turn_var_rad2_per_m, {0.0, 10.0},
               "turning error variance per metre driven");
   schema.real("motion.steer_var_rad2_m", o.noise.steer_var_rad2_m, {0.0, 1.0},
@@ -30,34 +30,34 @@ void describe(Schema& schema, OdometryOptions& o) {
   schema.real("motion.turn_scale", o.turn_scale, {0.1, 10.0}, "true turn per measured turn");
   schema.real("motion.turn_bias_degps", o.turn_bias_degps, {-100.0, 100.0},
               "what the odometry turns too little while the robot moves, degrees per second");
-  schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
-              "a robot slower than this that also turns little stands, m/s: what its odometry turns then is "
-              "its bias, and taken out of what follows; 0: never");
-  schema.real("motion.standing_below_radps", o.standing.below_radps, {0.0, 10.0},
-              "the most that counts as turning little there, rad/s");
+  schema.real(
+      "motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
+      "a robot slower than this that also turns by less than 0.02 rad/s stands, m/s: what its odometry "
+      "turns then is its bias, and taken out of what follows; 0: never");
   schema.real("motion.outer_point_m", o.outer_point_m, {0.0, 10.0},
               "how far out, on the outside of a turn, the point is whose speed is reported, m");
   schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
               "how much later than its stamp a motion happens, s: a robot takes time to follow a command");
-  schema.choice("motion.arc", o.arc, {"exact", "article"},
-                "chord of the exact arc, or k = 1 as in the 2012 article");
 }
 
 void describe(Schema& schema, LandmarkSensor& s) {
-  schema.real("sensor.x_m", s.x_m, {-100.0, 100.0}, "landmark sensor ahead of the robot's origin, m");
-  schema.real("sensor.y_m", s.y_m, {-100.0, 100.0}, "landmark sensor left of the robot's origin, m");
+  schema.real("sensor.x_m", s.x_m, {-100.0, 100.0}, "landmark sensor ahead of the robot's origin, m",
+              Shown::kAlways);
+  schema.real("sensor.y_m", s.y_m, {-100.0, 100.0}, "landmark sensor left of the robot's origin, m",
+              Shown::kAlways);
   schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0},
-              "direction of the landmark sensor, degrees left of ahead");
+              "direction of the landmark sensor, degrees left of ahead", Shown::kAlways);
   schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0}, "reported range per metre of true range");
   schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0},
               "by how much more than that is reported, m");
   schema.boolean("sensor.range_is_depth", s.range_is_depth,
                  "the range is measured along the sensor's axis, as a camera does that goes by size");
-  schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m");
+  schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m",
+              Shown::kAlways);
   schema.real("sensor.range_sigma_ratio", s.range_sigma_ratio, {0.0, 1.0},
-              "further standard deviation per metre of range");
+              "further standard deviation per metre of range", Shown::kAlways);
   schema.real("sensor.bearing_sigma_deg", s.bearing_sigma_deg, {1e-5, 180.0},
-              "standard deviation of a bearing, degrees");
+              "standard deviation of a bearing, degrees", Shown::kAlways);
   schema.real(
       "sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
       "standard deviation of what all ranges of a log have in common, per metre; both filters estimate it");
@@ -92,15 +92,16 @@ void describe(Schema& schema, CameraOptions& o) {
   schema.real("camera.p1", o.distortion.p1, {-10.0, 10.0}, "tangential distortion");
   schema.real("camera.p2", o.distortion.p2, {-10.0, 10.0}, "tangential distortion");
   schema.real("camera.k3", o.distortion.k3, {-1e4, 1e4}, "radial distortion, sixth order");
-  schema.real("camera.mount_x_m", o.mount.x_m, {-100.0, 100.0}, "camera ahead of the robot's origin, m");
-  schema.real("camera.mount_y_m", o.mount.y_m, {-100.0, 100.0}, "camera left of it, m");
-  schema.real("camera.mount_z_m", o.mount.z_m, {-100.0, 100.0}, "camera above the ground, m");
+  schema.real("camera.mount_x_m", o.mount.x_m, {-100.0, 100.0}, "camera ahead of the robot's origin, m",
+              Shown::kAlways);
+  schema.real("camera.mount_y_m", o.mount.y_m, {-100.0, 100.0}, "camera left of it, m", Shown::kAlways);
+  schema.real("camera.mount_z_m", o.mount.z_m, {-100.0, 100.0}, "camera above the ground, m", Shown::kAlways);
   schema.real("camera.mount_roll_deg", o.mount.roll_deg, {-360.0, 360.0},
-              "turn of the camera about the robot's x axis, degrees");
+              "turn of the camera about the robot's x axis, degrees", Shown::kAlways);
   schema.real("camera.mount_pitch_deg", o.mount.pitch_deg, {-360.0, 360.0},
-              "... about its y axis, positive looks down");
+              "... about its y axis, positive looks down", Shown::kAlways);
   schema.real("camera.mount_yaw_deg", o.mount.yaw_deg, {-360.0, 360.0},
-              "... about its z axis, positive looks left");
+              "... about its z axis, positive looks left", Shown::kAlways);
 }
 
 void describe(Schema& schema, PipelineOptions& options) {

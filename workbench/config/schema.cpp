@@ -12,6 +12,7 @@
 #include "waymark/core/names.hpp"
 
 #include "workbench/config/flat_yaml.hpp"
+#include "workbench/config/former_keys.hpp"
 #include "workbench/config/read_file.hpp"
 
 namespace waymark {
@@ -31,18 +32,6 @@ std::string describe_limits(Limits limits) {
   if (limits.high == kInfinity) return fmt::format("at least {}", limits.low);
   if (limits.low == -kInfinity) return fmt::format("at most {}", limits.high);
   return fmt::format("{} to {}", limits.low, limits.high);
-}
-
-template <class Number>
-std::function<bool(std::string_view)> number_setter(Number& field, Limits limits) {
-  return [&field, limits](std::string_view text) {
-    const auto number = parse_number<Number>(text);
-    const bool allowed =
-        number && static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high;
-    if (!allowed) return false;
-    field = *number;
-    return true;
-  };
 }
 
 /// The text as YAML reads it back: in double quotes, with escapes, unless it is surely a plain scalar.
@@ -69,40 +58,73 @@ void Schema::add(Key key) {
   keys_.push_back(std::move(key));
 }
 
-void Schema::real(std::string name, double& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), describe_limits(limits),
-       [&field] { return fmt::format("{}", field); }, number_setter(field, limits), limits});
+template <class Number>
+void Schema::add_number(std::string name, std::vector<Number*> fields, Limits limits, std::string allowed,
+                        std::string help, Shown shown) {
+  auto get = [field = fields.front()] { return fmt::format("{}", *field); };
+  auto set = [fields = std::move(fields), limits](std::string_view text) {
+    const auto number = parse_number<Number>(text);
+    const bool is_allowed =
+        number && static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high;
+    if (!is_allowed) return false;
+    for (Number* const field : fields) *field = *number;
+    return true;
+  };
+  add({std::move(name), std::move(help), std::move(allowed), std::move(get), std::move(set), shown});
 }
 
-void Schema::integer(std::string name, int& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
+void Schema::real(std::string name, std::vector<double*> fields, Limits limits, std::string help,
+                  Shown shown) {
+  add_number(std::move(name), std::move(fields), limits, describe_limits(limits), std::move(help), shown);
+  keys_.back().limits = limits;
 }
 
-void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help) {
-  add({std::move(name), std::move(help), "whole number, " + describe_limits(limits),
-       [&field] { return fmt::format("{}", field); }, number_setter(field, limits)});
+void Schema::real(std::string name, double& field, Limits limits, std::string help, Shown shown) {
+  real(std::move(name), std::vector{&field}, limits, std::move(help), shown);
 }
 
-void Schema::boolean(std::string name, bool& field, std::string help) {
-  auto set = [&field](std::string_view text) {
+void Schema::integer(std::string name, std::vector<int*> fields, Limits limits, std::string help,
+                     Shown shown) {
+  add_number(std::move(name), std::move(fields), limits, "whole number, " + describe_limits(limits),
+             std::move(help), shown);
+}
+
+void Schema::integer(std::string name, int& field, Limits limits, std::string help, Shown shown) {
+  integer(std::move(name), std::vector{&field}, limits, std::move(help), shown);
+}
+
+void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help, Shown shown) {
+  add_number(std::move(name), std::vector{&field}, limits, "whole number, " + describe_limits(limits),
+             std::move(help), shown);
+}
+
+void Schema::boolean(std::string name, std::function<bool()> get, std::function<void(bool)> set,
+                     std::string help, Shown shown) {
+  auto set_by_name = [set = std::move(set)](std::string_view text) {
     if (text != "true" && text != "false") return false;
-    field = text == "true";
+    set(text == "true");
     return true;
   };
   add({std::move(name), std::move(help), "true or false",
-       [&field] { return std::string(field ? "true" : "false"); }, std::move(set)});
+       [get = std::move(get)] { return std::string(get() ? "true" : "false"); }, std::move(set_by_name),
+       shown});
 }
 
-void Schema::text(std::string name, std::string& field, std::string help) {
+void Schema::boolean(std::string name, bool& field, std::string help, Shown shown) {
+  boolean(
+      std::move(name), [&field] { return field; }, [&field](bool value) { field = value; }, std::move(help),
+      shown);
+}
+
+void Schema::text(std::string name, std::string& field, std::string help, Shown shown) {
   auto set = [&field](std::string_view text) {
     field = text;
     return true;
   };
-  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set)});
+  add({std::move(name), std::move(help), "text", [&field] { return field; }, std::move(set), shown});
 }
 
-void Schema::add_choice(std::string name, std::vector<std::string> names, std::string help,
+void Schema::add_choice(std::string name, std::vector<std::string> names, std::string help, Shown shown,
                         std::function<std::size_t()> get, std::function<void(std::size_t)> set) {
   auto shared = std::make_shared<const std::vector<std::string>>(std::move(names));
   auto set_by_name = [shared, set = std::move(set)](std::string_view text) {
@@ -112,7 +134,7 @@ void Schema::add_choice(std::string name, std::vector<std::string> names, std::s
     return true;
   };
   add({std::move(name), std::move(help), one_of(*shared),
-       [shared, get = std::move(get)] { return (*shared)[get()]; }, std::move(set_by_name)});
+       [shared, get = std::move(get)] { return (*shared)[get()]; }, std::move(set_by_name), shown});
 }
 
 const Schema::Key* Schema::find(std::string_view name) const {
@@ -159,6 +181,11 @@ std::string Schema::nearest(std::string_view name) const {
                                    [name](const std::string& key) { return edit_distance(key, name); });
 }
 
+bool Schema::is_shown(std::string_view key) const {
+  const Key* found = find(key);
+  return found != nullptr && found->shown == Shown::kAlways;
+}
+
 bool Schema::was_set(std::string_view key) const {
   const Key* found = find(key);
   return found != nullptr && found->was_set;
@@ -167,10 +194,13 @@ bool Schema::was_set(std::string_view key) const {
 Result<void> Schema::set(std::string_view key, std::string_view value, std::string_view where) {
   const auto found = std::ranges::find(keys_, key, &Key::name);
   if (found == keys_.end()) {
+    if (const FormerKey* former = find_former_key(key))
+      return Error{fmt::format("{}: {}; `waymark config --migrate FILE` mends a file", where,
+                               what_became_of(*former))};
     const std::string guess = nearest(key);
-    return Error{fmt::format(
-        "{}: unknown key {}{}", where, key,
-        guess.empty() ? "; `waymark config` lists all keys" : fmt::format("; did you mean {}?", guess))};
+    return Error{fmt::format("{}: unknown key {}{}", where, key,
+                             guess.empty() ? "; `waymark config --all` lists all keys"
+                                           : fmt::format("; did you mean {}?", guess))};
   }
   if (!found->set(value))
     return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
@@ -198,21 +228,24 @@ Result<void> Schema::load_file(const std::filesystem::path& path) {
   return text ? load_text(*text, path.string()) : text.error();
 }
 
-std::string Schema::to_yaml() const {
+std::string Schema::to_yaml(const std::function<bool(const std::string&)>& is_wanted) const {
   // "section." of a key, "" where it has none: npos + 1 is 0.
   const auto section_of = [](const Key& key) { return key.name.substr(0, key.name.find('.') + 1); };
-  std::vector<std::string> sections;
+  std::vector<const Key*> wanted;
   for (const auto& key : keys_)
-    if (std::ranges::find(sections, section_of(key)) == sections.end()) sections.push_back(section_of(key));
+    if (!is_wanted || is_wanted(key.name)) wanted.push_back(&key);
+  std::vector<std::string> sections;
+  for (const Key* key : wanted)
+    if (std::ranges::find(sections, section_of(*key)) == sections.end()) sections.push_back(section_of(*key));
   std::string yaml;
   for (const auto& section : sections) {
     if (!section.empty()) yaml += "\n" + section.substr(0, section.size() - 1) + ":\n";
     const std::string indent = section.empty() ? "" : "  ";
-    for (const auto& key : keys_) {
-      if (section_of(key) != section) continue;
-      yaml += fmt::format("{}# {} ({}; default {})\n", indent, key.help, key.allowed,
-                          key.default_value.empty() ? "empty" : yaml_scalar(key.default_value));
-      yaml += fmt::format("{}{}: {}\n", indent, key.name.substr(section.size()), yaml_scalar(key.get()));
+    for (const Key* key : wanted) {
+      if (section_of(*key) != section) continue;
+      yaml += fmt::format("{}# {} ({}; default {})\n", indent, key->help, key->allowed,
+                          key->default_value.empty() ? "empty" : yaml_scalar(key->default_value));
+      yaml += fmt::format("{}{}: {}\n", indent, key->name.substr(section.size()), yaml_scalar(key->get()));
     }
   }
   return yaml;

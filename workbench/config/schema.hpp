@@ -20,6 +20,9 @@ struct Limits {
   double high = std::numeric_limits<double>::infinity();
 };
 
+/// Whether `waymark config` shows a key: always are those that a page of docs/ tells a user to set.
+enum class Shown : std::uint8_t { kOnRequest, kAlways };
+
 /// Binds config keys to the fields of plain option structs: every key has a name that carries its unit, a
 /// default (what the field holds when it is added), limits, and one line of help. The fields must outlive the
 /// schema.
@@ -31,23 +34,36 @@ struct Limits {
 ///     }
 class Schema {
  public:
-  void real(std::string name, double& field, Limits limits, std::string help);
-  void integer(std::string name, int& field, Limits limits, std::string help);
-  void integer(std::string name, std::uint64_t& field, Limits limits, std::string help);
-  void boolean(std::string name, bool& field, std::string help);
-  void text(std::string name, std::string& field, std::string help);
+  void real(std::string name, double& field, Limits limits, std::string help,
+            Shown shown = Shown::kOnRequest);
+  /// One key for fields of several structs that mean the same and have the same default.
+  void real(std::string name, std::vector<double*> fields, Limits limits, std::string help,
+            Shown shown = Shown::kOnRequest);
+  void integer(std::string name, int& field, Limits limits, std::string help,
+               Shown shown = Shown::kOnRequest);
+  void integer(std::string name, std::uint64_t& field, Limits limits, std::string help,
+               Shown shown = Shown::kOnRequest);
+  void integer(std::string name, std::vector<int*> fields, Limits limits, std::string help,
+               Shown shown = Shown::kOnRequest);
+  void boolean(std::string name, bool& field, std::string help, Shown shown = Shown::kOnRequest);
+  /// One key for a choice that is made of several fields.
+  void boolean(std::string name, std::function<bool()> get, std::function<void(bool)> set, std::string help,
+               Shown shown = Shown::kOnRequest);
+  void text(std::string name, std::string& field, std::string help, Shown shown = Shown::kOnRequest);
 
   /// One of `names`; enumerators must count up from 0 in their order.
   template <class Enum>
-  void choice(std::string name, Enum& field, std::vector<std::string> names, std::string help) {
+  void choice(std::string name, Enum& field, std::vector<std::string> names, std::string help,
+              Shown shown = Shown::kOnRequest) {
     add_choice(
-        std::move(name), std::move(names), std::move(help),
+        std::move(name), std::move(names), std::move(help), shown,
         [&field] { return static_cast<std::size_t>(field); },
         [&field](std::size_t index) { field = static_cast<Enum>(index); });
   }
 
   /// Sets one key from text. `where` (a file and line, "--set", ...) begins the error.
-  /// An unknown key names the nearest known one; an impossible value names what would be right.
+  /// An unknown key names the nearest known one, a former one (former_keys.hpp) what became of it; an
+  /// impossible value names what would be right.
   Result<void> set(std::string_view key, std::string_view value, std::string_view where);
 
   /// "key=value", as on the command line.
@@ -58,11 +74,12 @@ class Schema {
   /// The same from memory; `name` stands for the file in errors.
   Result<void> load_text(const std::string& yaml, const std::string& name);
 
-  /// The complete config in force as YAML with help, unit and limits as comments. load_text() of it changes
-  /// nothing.
-  [[nodiscard]] std::string to_yaml() const;
+  /// The config in force as YAML with help, unit and limits as comments: the keys that `is_wanted` takes, all
+  /// without it. load_text() of it changes nothing.
+  [[nodiscard]] std::string to_yaml(const std::function<bool(const std::string&)>& is_wanted = {}) const;
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+  [[nodiscard]] bool is_shown(std::string_view key) const;
   /// Has anyone set it, be it to its default?
   [[nodiscard]] bool was_set(std::string_view key) const;
   /// The text of the value in force; the key must exist.
@@ -80,13 +97,17 @@ class Schema {
     std::string allowed;  ///< "0.5 to 1", "true or false", "ekf or fastslam"
     std::function<std::string()> get;
     std::function<bool(std::string_view)> set;  ///< false: not an allowed value
-    std::optional<Limits> limits;               ///< of a real number
-    std::string default_value;
+    Shown shown = Shown::kOnRequest;
+    std::optional<Limits> limits = std::nullopt;  ///< of a real number
+    std::string default_value = {};
     bool was_set = false;
   };
 
   void add(Key key);
-  void add_choice(std::string name, std::vector<std::string> names, std::string help,
+  template <class Number>
+  void add_number(std::string name, std::vector<Number*> fields, Limits limits, std::string allowed,
+                  std::string help, Shown shown);
+  void add_choice(std::string name, std::vector<std::string> names, std::string help, Shown shown,
                   std::function<std::size_t()> get, std::function<void(std::size_t)> set);
   [[nodiscard]] const Key* find(std::string_view name) const;
   [[nodiscard]] std::string nearest(std::string_view name) const;

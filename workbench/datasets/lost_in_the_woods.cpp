@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 #include "workbench/logs/event_list.hpp"
 
 namespace waymark {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 #include "workbench/datasets/rounded_stamps.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/logs/merged_log.hpp"

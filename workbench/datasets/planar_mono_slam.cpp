@@ -15,8 +15,8 @@
 #include "waymark/core/random.hpp"
 #include "waymark/models/camera.hpp"
 
+#include "workbench/config/known_settings.hpp"
 #include "workbench/config/robot_keys.hpp"
-#include "workbench/datasets/known_settings.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/logs/number_text.hpp"

@@ -9,7 +9,7 @@
 
 #include "waymark/core/angle.hpp"
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/logs/text_table.hpp"
@@ -66,16 +66,8 @@ LandmarkId beacon_id(double number) {
   return {LandmarkId::Family::kMarker, static_cast<std::int32_t>(number)};
 }
 
-/// Whether the robot mostly moves against its heading.
-bool drives_backwards(const Eigen::MatrixXd& truth) {
-  double along_m = 0.0;
-  for (Eigen::Index row = 1; row < truth.rows(); ++row) {
-    const double heading_rad = truth(row - 1, 3);
-    along_m += (truth(row, 1) - truth(row - 1, 1)) * std::cos(heading_rad) +
-               (truth(row, 2) - truth(row - 1, 2)) * std::sin(heading_rad);
-  }
-  return along_m < 0.0;
-}
+/// Whether the robot of a published run moves against its published heading.
+bool drives_backwards(const Run& run) { return run.name == "Plaza2"; }
 
 /// Dead reckoning in steps that each bend as an arc does; a row belongs to the time since the one above.
 void add_odometry(const Run& run, double sign, std::vector<Event>& events) {
@@ -124,7 +116,7 @@ Result<std::unique_ptr<Source>> make_source(const Run& run, const std::string& w
   if (auto checked = check(run, where); !checked) return checked.error();
   auto info = info_of(run);
   if (!info) return info.error();
-  const bool turn_round = fix_known_errors && drives_backwards(run.truth);
+  const bool turn_round = fix_known_errors && drives_backwards(run);
   std::vector<Event> events;
   add_odometry(run, turn_round ? -1.0 : 1.0, events);
   add_truth(run, events);
@@ -183,14 +175,14 @@ Result<std::unique_ptr<Source>> open_plaza(const MatFile& file, bool fix_known_e
   return make_source(run, file.path().string(), fix_known_errors);
 }
 
-Result<std::unique_ptr<Source>> open_plaza_text(const fs::path& path) {
+Result<std::unique_ptr<Source>> open_plaza_text(const fs::path& path, bool fix_known_errors) {
   auto odometry = read_text(path.string() + std::string(kOdometrySuffix), "stamp_s,distance_m,turn_rad");
   if (!odometry) return odometry.error();
   auto ranges = read_text(path.string() + std::string(kRangeSuffix), "stamp_s,sender,beacon,range_m");
   if (!ranges) return ranges.error();
   const Run run{base_name(path), *std::move(odometry), *std::move(ranges), Eigen::MatrixXd(0, 4),
                 Eigen::MatrixXd(0, 3)};
-  return make_source(run, path.string(), false);
+  return make_source(run, path.string(), fix_known_errors);
 }
 
 }  // namespace waymark

@@ -26,6 +26,7 @@ namespace waymark {
 [[nodiscard]] Result<std::unique_ptr<Source>> open_plaza(const MatFile& file, bool fix_known_errors);
 
 /// The same from the text files, which hold neither truth nor beacons: `path` is "folder/Plaza1".
-[[nodiscard]] Result<std::unique_ptr<Source>> open_plaza_text(const std::filesystem::path& path);
+[[nodiscard]] Result<std::unique_ptr<Source>> open_plaza_text(const std::filesystem::path& path,
+                                                              bool fix_known_errors);
 
 }  // namespace waymark

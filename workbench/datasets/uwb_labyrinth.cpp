@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/logs/text_lines.hpp"

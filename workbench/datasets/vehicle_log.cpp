@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 
 namespace waymark {
 namespace {

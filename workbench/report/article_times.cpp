@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "workbench/run/article_methods.hpp"
+
 namespace waymark {
 namespace {
 
@@ -19,9 +21,7 @@ constexpr std::array kTimes{
 }  // namespace
 
 bool is_article_system(const Config& config) {
-  return config.observe == Observe::kPixel && config.pixel.update == UpdateMethod::kTextbook &&
-         config.pixel.init == ekf::Initialization::kArticle &&
-         config.search.match == vision::MatchScore::kArticle;
+  return config.observe == Observe::kPixel && uses_article_methods(config);
 }
 
 std::optional<ArticleTime> article_time(std::string_view block_name) {

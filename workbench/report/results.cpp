@@ -6,6 +6,7 @@
 #include "workbench/logs/tum.hpp"
 #include "workbench/report/report.hpp"
 #include "workbench/report/run_report.hpp"
+#include "workbench/run/acting_keys.hpp"
 
 namespace waymark {
 namespace {
@@ -68,8 +69,8 @@ Result<void> write_results(const RunResult& result, const std::filesystem::path&
   if (auto written = write_maps(result, folder); !written) return written;
   if (auto written = write_smoothed(result, folder); !written) return written;
   if (auto written = write_calibration(result, folder); !written) return written;
-  Config config = result.config;
-  if (auto written = write_file(folder / "config.yaml", describe(config).to_yaml()); !written) return written;
+  const std::string config = acting_yaml(result.config, result.log, result.recording.odometry);
+  if (auto written = write_file(folder / "config.yaml", config); !written) return written;
   if (auto written = write_file(folder / "metrics.json", to_json(result.metrics)); !written) return written;
   return write_report(make_report(result, command), folder / "report.html");
 }

@@ -8,6 +8,7 @@
 #include "workbench/report/article_times.hpp"
 #include "workbench/report/micros.hpp"
 #include "workbench/report/path_series.hpp"
+#include "workbench/run/acting_keys.hpp"
 
 namespace waymark {
 namespace {
@@ -162,12 +163,11 @@ ReportData make_report(const RunResult& result, const std::string& command) {
 
 void add_run_to(ReportData& report, const RunResult& result, const std::string& command) {
   const Clock clock(result);
-  Config config = result.config;
   RunData run;
   run.name = filter_name(result.config.filter);
   run.filter = result.metrics.filter;
   run.command = command;
-  run.config_yaml = describe(config).to_yaml();
+  run.config_yaml = acting_yaml(result.config, result.log, result.recording.odometry);
   run.path = path_series(result.recording.trajectory, anchor(result), clock.start());
   if (result.smoothed) run.smoothed = path_series(result.smoothed->trajectory, anchor(result), clock.start());
   run.alignment = alignment_of(result);

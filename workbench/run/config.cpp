@@ -7,6 +7,7 @@
 #include "workbench/config/filter_keys.hpp"
 #include "workbench/config/robot_keys.hpp"
 #include "workbench/logs/image_loader.hpp"
+#include "workbench/run/article_methods.hpp"
 #include "workbench/run/open_source.hpp"
 #include "workbench/sim/simulation.hpp"
 
@@ -76,19 +77,52 @@ void put_sensor_at_camera(Config& config) {
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
 
+namespace {
+
+/// Keys that set options of several parts.
+void describe_shared(Schema& schema, Config& config) {
+  OdometryStateOptions& live = config.ekf.odometry;
+  SmoothOptions& smooth = config.smooth;
+  schema.real("motion.speed_scale_sigma", {&live.speed_scale_sigma, &smooth.speed_scale_sigma}, {0.0, 1.0},
+              "standard deviation of the true distance per measured distance, where it is estimated "
+              "(ekf.calibrate_odometry, smooth.run); 0: it is 1");
+  schema.real("motion.turn_scale_sigma", {&live.turn_scale_sigma, &smooth.turn_scale_sigma}, {0.0, 1.0},
+              "the same of the true turn per measured turn");
+  schema.real("motion.turn_bias_sigma_degps", {&live.turn_bias_sigma_degps, &smooth.turn_bias_sigma_degps},
+              {0.0, 100.0},
+              "the same of what the odometry turns too little while the robot moves, degrees per second; 0: "
+              "nothing");
+  schema.real("camera.vibration_deg", {&config.pixel.vibration_deg, &config.markers.mount_sigma_deg},
+              {0.0, 10.0},
+              "standard deviation of how the camera shakes on its robot, anew in every picture, degrees");
+  schema.integer("pixel.most_candidates",
+                 {&config.pixel.most_candidates, &config.tracker.new_corners.most_candidates}, {1, 100},
+                 "points whose depth is being found out at once");
+  schema.boolean(
+      "pixel.article", [&config] { return uses_article_methods(config); },
+      [&config](bool use) { use_article_methods(config, use); },
+      "the methods of the 2012 article, to compare with; needs observe=pixel and ekf.consistency=standard");
+}
+
+}  // namespace
+
 Schema describe(Config& config) {
   Schema schema;
-  schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map");
+  schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map",
+                Shown::kAlways);
   schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel", "markers"},
                 "which part of the observations is used; pixel: natural corners in images, or given pixels; "
-                "markers: ArUco markers or AprilTags in images; the default is what the log offers");
+                "markers: ArUco markers or AprilTags in images; the default is what the log offers",
+                Shown::kAlways);
   schema.choice(
       "associate", config.associate, {"known", "nearest", "jcbb", "ml"},
       "how observations find their landmarks: by identity alone, or also without one: nearest (pair "
       "by pair) and jcbb (jointly) are the EKF's, ml (by maximum likelihood) is FastSLAM's; the "
-      "default is what the log allows");
-  schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers");
-  schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it");
+      "default is what the log allows",
+      Shown::kAlways);
+  schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers", Shown::kAlways);
+  schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it",
+                 Shown::kAlways);
   describe(schema, config.input);
   describe(schema, config.odometry);
   describe(schema, config.sensor);
@@ -104,6 +138,7 @@ Schema describe(Config& config) {
   describe(schema, config.markers);
   describe(schema, config.fastslam);
   describe(schema, config.smooth);
+  describe_shared(schema, config);
   sim::describe(schema, config.sim);
   return schema;
 }

@@ -24,9 +24,9 @@ using Place = InputFormat::Place;
 
 bool has_plaza_text(const fs::path& folder) { return !plaza_text_runs(folder).empty(); }
 
-Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, int run) {
-  const auto path = choose_run(folder, plaza_text_runs(folder), run);
-  return path ? open_plaza_text(*path) : path.error();
+Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, const InputOptions& options) {
+  const auto path = choose_run(folder, plaza_text_runs(folder), options.run);
+  return path ? open_plaza_text(*path, options.fix_known_errors) : path.error();
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::span<const InputFormat> input_formats() {
       InputFormat{"the folder of Plaza as text", "PlazaN_DR.txt with PlazaN_TD.txt", Place::kFolder,
                   has_plaza_text,
                   [](const fs::path& folder, const InputOptions& options) {
-                    return open_plaza_text_run(folder, options.run);
+                    return open_plaza_text_run(folder, options);
                   }},
       InputFormat{"Victoria Park's graph", "a .txt file that begins with ODOMETRY", Place::kFile,
                   is_victoria_park_graph,

@@ -3,9 +3,11 @@
 namespace waymark {
 
 void describe(Schema& schema, InputOptions& options) {
-  schema.integer("input.robot", options.robot, {1, 99}, "which robot, where a recording holds several");
+  schema.integer("input.robot", options.robot, {1, 99}, "which robot, where a recording holds several",
+                 Shown::kAlways);
   schema.integer("input.run", options.run, {1, 99},
-                 "which recording of a folder that holds several, in the order of their names");
+                 "which recording of a folder that holds several, in the order of their names",
+                 Shown::kAlways);
   schema.boolean("input.fix_known_errors", options.fix_known_errors,
                  "put right what is known to be wrong in a published recording");
   schema.real(

@@ -1,5 +1,7 @@
 #include "workbench/run/make_filter.hpp"
 
+#include <fmt/format.h>
+
 #include "waymark/ekf/localizer.hpp"
 #include "waymark/ekf/pixel_slam.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
@@ -9,9 +11,25 @@
 namespace waymark {
 namespace {
 
+/// The user's, or the filter's own.
+int capacity_of(const Config& config, int usual) {
+  return config.map.capacity > 0 ? config.map.capacity : usual;
+}
+
+/// The EKF correlates every landmark with every other.
+Result<void> check_capacity(const Config& config) {
+  const int most = config.filter == FilterKind::kFastSlam ? 1'000'000
+                   : config.observe == Observe::kPixel    ? 2'000
+                                                          : 20'000;
+  if (config.map.capacity <= most) return {};
+  return Error{fmt::format("map.capacity: {} landmarks are more than this filter takes, {}",
+                           config.map.capacity, most)};
+}
+
 /// Where nothing tells how large the world is, distances are what the odometry says.
 EkfOptions ekf_options(const Config& config, const std::optional<MapState>& start) {
   EkfOptions options = config.ekf;
+  options.capacity = capacity_of(config, options.capacity);
   options.gate = config.gate;
   if (config.associate != Association::kKnown)
     options.unknown = UnknownAssociation{config.associate == Association::kJcbb, config.association};
@@ -36,8 +54,8 @@ Result<FilterSystem> make_planar_ekf(const Config& config, const std::optional<M
 
 Result<FilterSystem> make_pixel_ekf(const Config& config, const std::optional<MapState>& start) {
   PixelSlamOptions options = config.pixel;
+  options.capacity = capacity_of(config, options.capacity);
   options.consistency = config.ekf.consistency;
-  options.evict = config.ekf.evict;
   auto filter = std::make_unique<PixelSlam>(options, config.camera, config.threads);
   auto front_end = std::make_unique<CornerFrontEnd>(*filter, config.tracker, config.search,
                                                     Camera(config.camera), config.threads);
@@ -55,7 +73,7 @@ Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState
     return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
   if (config.pixel.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
-    return Error{"ekf.update: textbook needs observe=pixel and ekf.consistency=standard"};
+    return Error{"pixel.article: needs observe=pixel and ekf.consistency=standard"};
   if (config.ekf.odometry.estimate &&
       (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
     return Error{
@@ -75,6 +93,7 @@ Result<FilterSystem> make_fastslam(const Config& config) {
     return Error{
         "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
   FastSlamOptions options = config.fastslam;
+  options.capacity = capacity_of(config, options.capacity);
   options.gate = config.gate;
   options.seed = config.seed;
   if (by_likelihood) options.unknown = config.association;
@@ -83,6 +102,7 @@ Result<FilterSystem> make_fastslam(const Config& config) {
 
 /// Without what finds markers.
 Result<FilterSystem> make_without_markers(const Config& config, const std::optional<MapState>& start) {
+  if (auto fits = check_capacity(config); !fits) return fits.error();
   return config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
 }
 
@@ -102,8 +122,8 @@ Result<std::optional<MapState>> read_start_map(const Config& config) {
         "(map.localize=false)"};
   if (config.smooth.run)
     return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
-  auto map = pixels ? read_start_map(config.map, 3, config.pixel.capacity)
-                    : read_start_map(config.map, 2, config.ekf.capacity);
+  auto map = pixels ? read_start_map(config.map, 3, capacity_of(config, config.pixel.capacity))
+                    : read_start_map(config.map, 2, capacity_of(config, config.ekf.capacity));
   if (!map) return map.error();
   return std::optional(*std::move(map));
 }

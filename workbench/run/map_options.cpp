@@ -9,9 +9,14 @@
 namespace waymark {
 
 void describe(Schema& schema, MapOptions& options) {
-  schema.text("map.file", options.file, "saved map (map.waymark) to start from; empty: an empty map");
+  schema.text("map.file", options.file, "saved map (map.waymark) to start from; empty: an empty map",
+              Shown::kAlways);
   schema.boolean("map.localize", options.localize,
-                 "hold the map of map.file as it is and find the pose alone, from anywhere in it");
+                 "hold the map of map.file as it is and find the pose alone, from anywhere in it",
+                 Shown::kAlways);
+  schema.integer("map.capacity", options.capacity, {0, 1'000'000},
+                 "most landmarks in the map, for which memory is taken once; 0: 1000, with observe=pixel 100",
+                 Shown::kAlways);
 }
 
 Result<MapState> read_start_map(const MapOptions& options, int dimension, int capacity) {
@@ -23,9 +28,8 @@ Result<MapState> read_start_map(const MapOptions& options, int dimension, int ca
                     "dimension {}: 2 for range and bearing, 3 for pixels",
                     options.file, map->landmark_dimension, dimension)};
   if (std::ssize(map->ids) > capacity)
-    return Error{fmt::format("{}: {} landmarks are more than {}={} has room for; set it to more",
-                             options.file, map->ids.size(),
-                             dimension == 2 ? "ekf.capacity" : "pixel.capacity", capacity)};
+    return Error{fmt::format("{}: {} landmarks are more than map.capacity={} has room for; set it to more",
+                             options.file, map->ids.size(), capacity)};
   constexpr std::size_t kPixels = vision::ReferencePatch::kSide * vision::ReferencePatch::kSide;
   for (const LandmarkPatch& patch : map->patches)
     if (patch.pixels.size() != kPixels)

@@ -9,10 +9,11 @@
 
 namespace waymark {
 
-/// The saved map that a run starts from.
+/// How large the map may become, and the saved one that a run starts from.
 struct MapOptions {
   std::string file;       ///< a map.waymark; empty: an empty map
   bool localize = false;  ///< the map is held as it is, the robot may be anywhere in it
+  int capacity = 0;       ///< most landmarks; 0: as many as the filter has room for by itself
 };
 
 void describe(Schema& schema, MapOptions& options);

@@ -1,8 +1,7 @@
 #include "workbench/sim/options.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +9,8 @@
 #include "waymark/core/angle.hpp"
 #include "waymark/core/names.hpp"
 
+#include "workbench/config/known_settings_text.hpp"
+#include "workbench/config/read_file.hpp"
 #include "workbench/sim/marker_pattern.hpp"
 
 namespace waymark::sim {
@@ -151,163 +152,15 @@ void describe(Schema& schema, TruthOptions& o) {
   schema.boolean("sim.truth_heading", o.heading, "true poses state their heading");
 }
 
-SimOptions shaped(Shape shape) {
+constexpr std::string_view kFolder = "sim/";
+constexpr std::string_view kFileEnding = ".yaml";
+
+Result<SimOptions> read_options(const std::string& yaml, const std::string& name) {
   SimOptions options;
-  options.path.shape = shape;
+  Schema schema;
+  describe(schema, options);
+  if (auto done = schema.load_text(yaml, name); !done) return done.error();
   return options;
-}
-
-// Every number of the study stands here, so that no default can move it. The wheels are calibrated by
-// tests/sim/simulation_test.cpp, StudyDriftsByOnePointSixMetresPerLap.
-SimOptions study() {
-  return {
-      .path = {.shape = Shape::kSquare,
-               .side_m = 6.0,
-               .laps = 2,
-               .waypoints = 8,
-               .corner_radius_m = 0.0,
-               .speed_mps = 0.3,
-               .turn_rate_max_degps = 45.0},
-      .world = {.landmarks = 24,
-                .spread = Spread::kPath,
-                .area_m = 30.0,
-                .min_offset_m = 1.0,
-                .max_offset_m = 3.0,
-                .separation_m = 0.5},
-      .wheels = {.odometry = OdometryKind::kWheels,
-                 .rate_hz = 50.0,
-                 .radius_m = 0.0975,
-                 .track_m = 0.331,
-                 .var_m2_per_m = 2.9e-4,
-                 .slip_forward_var_m2_per_m = 1e-4,
-                 .slip_lateral_var_m2_per_m = 1e-4,
-                 .slip_turn_var_rad2_per_rad = 1e-3,
-                 .slip_turn_var_rad2_per_m = 1e-4},
-      .sensor = {.observe = Observe::kRangeBearing,
-                 .rate_hz = 15.0,
-                 .x_m = 0.0,
-                 .y_m = 0.0,
-                 .yaw_deg = 0.0,
-                 .range_min_m = 0.336,
-                 .range_max_m = 5.36,
-                 .field_of_view_deg = 49.56,
-                 .range_sigma_m = 0.05,
-                 .range_sigma_ratio = 0.0,
-                 .bearing_sigma_deg = 1.5,
-                 .drop_probability = 0.0,
-                 .false_probability = 0.0,
-                 .clutter_probability = 0.0,
-                 .misread_probability = 0.0,
-                 .identities = true},
-      .truth = {.rate_hz = 10.0, .heading = true},
-  };
-}
-
-/// The robot and camera of the FastSLAM report on a Pioneer 3-DX: velocities with 0.005 m/s and 0.05 rad/s of
-/// noise in every step of 0.1 s, here as variances per metre and radian at its speed and turn rate; the
-/// limits of its camera. The camera's noise is that of the study: the report's 0.5 m^2 and 0.5 rad^2 are a
-/// tuning of its filter (configs/fastslam-report.yaml), not what the camera does.
-SimOptions report(Shape shape) {
-  constexpr double kStep_s = 0.1;
-  constexpr double kSpeedVariance = 0.005 * 0.005;
-  constexpr double kTurnRateVariance = 0.05 * 0.05;
-  SimOptions options = study();
-  options.path.shape = shape;
-  options.path.laps = 1;
-  options.wheels.odometry = OdometryKind::kVelocity;
-  options.wheels.rate_hz = 1.0 / kStep_s;
-  options.wheels.var_m2_per_m = 0.0;
-  options.wheels.slip_forward_var_m2_per_m = kSpeedVariance * kStep_s / options.path.speed_mps;
-  options.wheels.slip_lateral_var_m2_per_m = 0.0;
-  options.wheels.slip_turn_var_rad2_per_m = kTurnRateVariance * kStep_s / options.path.speed_mps;
-  options.wheels.slip_turn_var_rad2_per_rad =
-      kTurnRateVariance * kStep_s / to_radians(options.path.turn_rate_max_degps);
-  return options;
-}
-
-// The robot of the study, faster, among trunks that all look alike.
-SimOptions forest() {
-  SimOptions options = study();
-  options.path.shape = Shape::kRandom;
-  options.path.side_m = 24.0;
-  options.path.waypoints = 12;
-  options.path.corner_radius_m = 1.0;
-  options.path.speed_mps = 1.0;
-  options.world = {.landmarks = 100,
-                   .spread = Spread::kArea,
-                   .area_m = 30.0,
-                   .min_offset_m = 0.5,
-                   .max_offset_m = 3.0,
-                   .separation_m = 1.0};
-  options.sensor.rate_hz = 5.0;
-  options.sensor.range_max_m = 10.0;
-  options.sensor.field_of_view_deg = 180.0;
-  options.sensor.range_sigma_m = 0.1;
-  options.sensor.bearing_sigma_deg = 1.0;
-  options.sensor.drop_probability = 0.05;
-  options.sensor.clutter_probability = 0.05;
-  options.sensor.identities = false;
-  return options;
-}
-
-/// A camera at 30 images/s on wheels whose encoders are read as often. They are calibrated like those of the
-/// study (RoomDriftsByOnePointSixMetresPerLap), for a lap at 0.5 m/s whose corners are driven with a radius
-/// of 0.5 m.
-SimOptions filmed(SceneKind scene) {
-  SimOptions options = study();
-  options.path.laps = 1;
-  options.path.corner_radius_m = 0.5;
-  options.path.speed_mps = 0.5;
-  options.world.landmarks = 0;
-  options.wheels.rate_hz = 30.0;
-  options.wheels.var_m2_per_m = 3.5e-4;
-  options.truth.rate_hz = 30.0;
-  options.room = {
-      .scene = scene, .margin_m = 2.0, .height_m = 2.5, .blocks = 24, .walkers = 1, .walker_speed_mps = 1.0};
-  options.film = FilmOptions{};
-  return options;
-}
-
-SimOptions corridor() {
-  SimOptions options = filmed(SceneKind::kCorridor);
-  options.path.shape = Shape::kLoop;
-  options.path.side_m = 24.0;
-  options.room.margin_m = 1.0;
-  options.room.blocks = 40;
-  return options;
-}
-
-/// Markers instead of furniture. The lap leaves 1.25 m to walls of 6 m.
-SimOptions marker_room() {
-  SimOptions options = filmed(SceneKind::kRoom);
-  options.path.side_m = 3.5;
-  options.path.laps = 2;
-  options.truth.rate_hz = 15.0;
-  options.room.margin_m = 1.25;
-  options.room.blocks = 0;
-  options.room.markers = 12;
-  options.room.marker_size_m = 0.2;
-  options.film.width_px = 640;
-  options.film.height_px = 480;
-  options.film.rate_hz = 15.0;
-  return options;
-}
-
-const std::vector<std::pair<std::string, SimOptions>>& scenarios() {
-  static const std::vector<std::pair<std::string, SimOptions>> all{
-      {"square", shaped(Shape::kSquare)},
-      {"l-shape", shaped(Shape::kLShape)},
-      {"figure-eight", shaped(Shape::kFigureEight)},
-      {"random", shaped(Shape::kRandom)},
-      {"study", study()},
-      {"forest", forest()},
-      {"room", filmed(SceneKind::kRoom)},
-      {"corridor", corridor()},
-      {"marker-room", marker_room()},
-      {"report-square", report(Shape::kSquare)},
-      {"report-l-shape", report(Shape::kLShape)},
-  };
-  return all;
 }
 
 // The limits are those of the keys, so each value is set to itself.
@@ -377,11 +230,15 @@ Result<void> validate(const SimOptions& options) {
 }
 
 Result<SimOptions> scenario(std::string_view name) {
-  for (const auto& [known, options] : scenarios()) {
-    if (known == name) return options;
+  if (name.ends_with(kFileEnding)) {
+    const auto text = read_file(std::filesystem::path(name));
+    return text ? read_options(*text, std::string(name)) : text.error();
   }
+  for (const SettingsText& each : known_settings_texts())
+    if (each.name.starts_with(kFolder) && each.name.substr(kFolder.size()) == name)
+      return read_options(each.yaml, fmt::format("configs/{}.yaml", each.name));
   const std::string near = nearest_name(name, scenario_names());
-  return Error{fmt::format("unknown scenario '{}'{}; there are {}", name,
+  return Error{fmt::format("unknown scenario '{}'{}; there are {}, or a file.yaml", name,
                            near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
                            fmt::join(scenario_names(), ", "))};
 }
@@ -389,7 +246,8 @@ Result<SimOptions> scenario(std::string_view name) {
 const std::vector<std::string>& scenario_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const auto& [name, options] : scenarios()) all.push_back(name);
+    for (const SettingsText& each : known_settings_texts())
+      if (each.name.starts_with(kFolder)) all.emplace_back(each.name.substr(kFolder.size()));
     return all;
   }();
   return names;

@@ -137,25 +137,11 @@ void describe(Schema& schema, SimOptions& options);
 /// right.
 Result<void> validate(const SimOptions& options);
 
-/// The options of a named world; an unknown name is an error that names the nearest.
-///
-/// `study` serves every comparison: two laps of the 6 m square at 0.3 m/s, 24 landmarks 1 to 3 m off the
-/// path, a sensor of 0.336 to 5.36 m and 49.56 degrees at 15 frames/s with 0.05 m and 1.5 degrees of noise,
-/// and wheels by which dead reckoning ends a lap 1.6 m from the truth (median over seeds).
-///
-/// `forest` is for filters that are not told which landmark they see: 100 trunks all over 30 x 30 m, at least
-/// 1 m apart and 0.5 m from the path, two laps of a random path at 1 m/s with the wheels of the study, a
-/// sensor of 10 m and 180 degrees at 5 scans/s with 0.1 m and 1 degree of noise, one in twenty sightings
-/// missing and one in twenty accompanied by a false one, no identities.
-///
-/// `room` and `corridor` are to be seen by a camera: the 6 m square in a room of 10 x 10 m, and a loop of 24
-/// x 8 m in a corridor 2 m wide, at 0.5 m/s.
-///
-/// `marker-room` is a room of 6 x 6 m with 12 ArUco markers (4x4_50, 0.2 m) on its walls, seen by a camera of
-/// 640 x 480 pixels and 60 degrees at 15 images/s during two laps.
-///
-/// `report-square` and `report-l-shape` are the worlds of the FastSLAM report on a Pioneer 3-DX.
+/// A named world, which is configs/sim/NAME.yaml, built in, or one in a file that ends with .yaml and sets
+/// `sim.` keys. An unknown name is an error that names the nearest. docs/rooms.md and the files themselves
+/// describe the worlds.
 Result<SimOptions> scenario(std::string_view name);
+/// In the order of the alphabet.
 [[nodiscard]] const std::vector<std::string>& scenario_names();
 
 }  // namespace waymark::sim

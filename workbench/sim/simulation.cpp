@@ -75,7 +75,7 @@ Settings settings_of(const SimOptions& options) {
     settings.emplace_back("observe", "markers");
     settings.emplace_back("markers.dictionary", "4x4_50");
     settings.emplace_back("markers.size_m", fmt::format("{}", options.room.marker_size_m));
-    settings.emplace_back("markers.mount_sigma_deg", fmt::format("{}", kMountSigma_deg));
+    settings.emplace_back("camera.vibration_deg", fmt::format("{}", kMountSigma_deg));
   }
   return settings;
 }

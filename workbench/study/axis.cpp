@@ -50,7 +50,7 @@ Result<void> check(const Axis& axis) {
   if (!schema.has(axis.key)) {
     const auto close = schema.close_keys(axis.key, 3);
     return bad_axis(close.empty()
-                        ? fmt::format("unknown key {}; `waymark config` lists all keys", axis.key)
+                        ? fmt::format("unknown key {}; `waymark config --all` lists all keys", axis.key)
                         : fmt::format("unknown key {}; close keys: {}", axis.key, fmt::join(close, ", ")));
   }
   std::vector<std::string> sorted = axis.values;

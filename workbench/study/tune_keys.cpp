@@ -21,7 +21,7 @@ Result<TuneKey> tune_key(const Schema& schema, const std::string& name) {
   if (!schema.has(name)) {
     const auto close = schema.close_keys(name, 3);
     return Error{close.empty()
-                     ? fmt::format("--keys: unknown key {}; `waymark config` lists all keys", name)
+                     ? fmt::format("--keys: unknown key {}; `waymark config --all` lists all keys", name)
                      : fmt::format("--keys: unknown key {}; close keys: {}", name, fmt::join(close, ", "))};
   }
   const auto limits = schema.limits(name);

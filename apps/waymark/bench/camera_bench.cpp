@@ -11,7 +11,7 @@
 #include "waymark/kernels/zmssd.hpp"
 #include "waymark/vision/corners.hpp"
 
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 #include "workbench/eval/median.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/report/article_times.hpp"

@@ -9,8 +9,8 @@
 
 namespace waymark {
 
-/// The settings of a published data set, which its reader hands on as LogInfo has them: configs/NAME.yaml,
-/// which is built in.
+/// The settings of configs/NAME.yaml, which is built in: of a published data set, whose reader hands them on
+/// as LogInfo has them, or of a simulated world, "sim/NAME".
 [[nodiscard]] Result<std::vector<std::pair<std::string, std::string>>> known_settings(std::string_view name);
 
 }  // namespace waymark

@@ -1,10 +1,10 @@
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 
 #include <algorithm>
 
 #include <gmock/gmock.h>
 
-#include "workbench/datasets/known_settings_text.hpp"
+#include "workbench/config/known_settings_text.hpp"
 #include "workbench/run/config.hpp"
 
 namespace waymark {

@@ -5,7 +5,7 @@
 
 namespace waymark {
 
-/// configs/NAME.yaml as it is.
+/// configs/NAME.yaml as it is; NAME may be "sim/NAME".
 struct SettingsText {
   std::string_view name;
   const char* yaml;

@@ -1,11 +1,11 @@
-#include "workbench/datasets/known_settings.hpp"
+#include "workbench/config/known_settings.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "workbench/config/flat_yaml.hpp"
-#include "workbench/datasets/known_settings_text.hpp"
+#include "workbench/config/known_settings_text.hpp"
 
 namespace waymark {
 
