@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/io_support.hpp"
+
 #include "workbench/config/former_keys.hpp"
 #include "workbench/config/read_file.hpp"
 
