@@ -1,5 +1,6 @@
 #include "waymark/fastslam/particle_existence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -70,6 +71,16 @@ TEST_F(ParticleExistenceTest, WhatIsMissedTooOftenHasNoSupport) {
   for (int i = 0; i < 3; ++i) update({test::range_bearing(4.0, 0.0)});
   EXPECT_EQ(log_odds(1), kernels::kAbsent);
   EXPECT_EQ(belief_.records[1].existence, 0.0);
+}
+
+TEST_F(ParticleExistenceTest, AScanWithIdentitiesAloneMissesLandmarksOfThePresentMap) {
+  std::fill_n(belief_.store.existence(0), belief_.particles.count(), 10.0F);
+  update({});
+  EXPECT_LT(log_odds(0), 10.0F);
+  belief_.remove(1);
+  const float before = log_odds(0);
+  update({});
+  EXPECT_LT(log_odds(0), before);
 }
 
 TEST_F(ParticleExistenceTest, CertaintyHasALimit) {

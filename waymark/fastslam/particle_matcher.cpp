@@ -63,7 +63,8 @@ void ParticleMatcher::match(Scan& scan, const InnovationGate& gate, int room, Be
   for (std::size_t i = 0; i < scan.size(); ++i)
     contested_[i] = scan.is(i, Outcome::kUnidentified) &&
                     std::holds_alternative<RangeBearing>(scan.observations[i].value);
-  if (!any_contested()) return;
+  // Existence is judged by what is near, whether anything is to be decided or not.
+  if (!any_contested()) return association_.index(belief.store, heaviest(belief.particles.weights()));
   belief.load_sample();
   decide(scan, gate, room, belief);
 }

@@ -41,7 +41,7 @@ class ParticleMatcher {
   /// Between which the particles split in this scan.
   [[nodiscard]] std::span<const Association::Choice> choices() const { return association_.choices(); }
 
-  /// Calls visit(landmark) for landmarks within a radius, as they were when the set last decided.
+  /// Calls visit(landmark) for landmarks within a radius, as they were when the scan was matched.
   template <class Visit>
   void visit_near(const Eigen::Vector2d& p_world, double radius_m, const Visit& visit) const {
     association_.visit_near(p_world, radius_m, visit);
