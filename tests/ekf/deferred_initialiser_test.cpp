@@ -37,6 +37,63 @@ void drive(EkfSlam& filter, CircleWorld& world, int steps, Part part) {
   }
 }
 
+/// A robot that drives a bend past one landmark, which only a DeferredInitialiser hears of.
+class OneLandmark : public testing::TestWithParam<Part> {
+ protected:
+  /// Drives on, and tells of the landmark without error.
+  [[nodiscard]] Outcome step() {
+    const Motion motion{{0.25, 0.0, 0.1}, 1e-6 * Eigen::Matrix3d::Identity()};
+    map_.state().predict(motion);
+    map_.table().travel(way_m(motion));
+    map_.table().begin_scan();
+    initialiser_.begin_scan();
+    return observe();
+  }
+  [[nodiscard]] Outcome observe() {
+    const Eigen::Vector2d p = map_.state().pose().T_world_robot.inverse() * kPlace;
+    Observation observation{kId, Range{p.norm()}, Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())};
+    if (GetParam() == Part::kBearing) observation.value = Bearing{std::atan2(p.y(), p.x())};
+    return initialiser_.observe(kId, observation);
+  }
+
+  static constexpr LandmarkId kId{LandmarkId::Family::kMarker, 3};
+  const Eigen::Vector2d kPlace{2.0, 3.0};
+  ekf::LastingErrors errors_{SensorErrors{}};
+  ekf::PointMap map_{{.capacity = 40}, errors_.pairs(), 1};
+  ekf::PointObservation observation_{map_.state(), errors_, Pose2{}};
+  ekf::DeferredInitialiser initialiser_{map_, observation_, ekf::Consistency::kInvariant};
+};
+
+TEST_P(OneLandmark, IsInitialisedWhereItIsOnceItsViewsTell) {
+  int steps = 1;
+  while (step() == Outcome::kPending) {
+    EXPECT_FALSE(map_.table().find(kId));
+    ASSERT_LT(++steps, 60);
+  }
+  EXPECT_GE(steps, 4);
+  ASSERT_EQ(map_.table().find(kId), 0) << "no viewpoint is left";
+  EXPECT_EQ(map_.table().size(), 1);
+  EXPECT_TRUE(map_.table().is_in_map(0));
+  EXPECT_LT((map_.state().landmark(0).head<2>() - kPlace).norm(), 0.05);
+}
+
+TEST_P(OneLandmark, OfAStandingRobotOneViewIsKept) {
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(observe(), Outcome::kPending);
+  EXPECT_EQ(map_.table().size(), GetParam() == Part::kBearing ? 2 : 1);
+  EXPECT_FALSE(map_.table().is_in_map(0));
+}
+
+TEST_P(OneLandmark, ViewpointsStayTheSameWhenLandmarksAreRemoved) {
+  map_.append({5.0, 5.0}, 1e-4 * Eigen::Matrix2d::Identity(), {}, {.id = {LandmarkId::Family::kMarker, 99}});
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(step(), Outcome::kPending);
+  map_.remove(0);
+  int steps = 0;
+  while (step() == Outcome::kPending) ASSERT_LT(++steps, 60);
+  EXPECT_LT((map_.state().landmark(0).head<2>() - kPlace).norm(), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, OneLandmark, testing::Values(Part::kRange, Part::kBearing));
+
 class DeferredInitialisation : public testing::TestWithParam<Part> {};
 
 TEST_P(DeferredInitialisation, FollowsTheTruthWithinItsOwnUncertainty) {

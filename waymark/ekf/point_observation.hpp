@@ -43,7 +43,6 @@ class PointObservation {
   PointObservation(const CompressedState& state, const LastingErrors& errors, const Pose2& T_robot_sensor)
       : state_(state), errors_(errors), T_robot_sensor_(T_robot_sensor) {}
 
-  [[nodiscard]] const Pose2& T_robot_sensor() const { return T_robot_sensor_; }
   /// Where the sensor is.
   [[nodiscard]] Pose2 T_world_sensor() const { return state_.pose().T_world_robot * T_robot_sensor_; }
 
