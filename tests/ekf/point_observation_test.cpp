@@ -96,7 +96,7 @@ class ObservedPoint : public testing::Test {
 };
 
 TEST_F(ObservedPoint, IsLocatedWhereItIsObservedAgain) {
-  state_.set_pose({kView.T_world_robot, Eigen::Matrix3d::Zero()});
+  state_.place_robot({kView.T_world_robot, Eigen::Matrix3d::Zero()});
   errors_.begin_scan();
   errors_.sight(state_, {});
   const Observation observation = observe(measure(kView));
@@ -129,7 +129,7 @@ TEST_F(ObservedPoint, OfOneRowHasTheErrorsOfThatRow) {
 }
 
 TEST_F(ObservedPoint, AtTheProposalTheInnovationIsWhatIsLeft) {
-  state_.set_pose({kView.T_world_robot, 1e-2 * Eigen::Matrix3d::Identity()});
+  state_.place_robot({kView.T_world_robot, 1e-2 * Eigen::Matrix3d::Identity()});
   errors_.begin_scan();
   errors_.sight(state_, {});
   Observation observation = observe(measure(kView));
