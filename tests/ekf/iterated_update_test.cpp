@@ -22,7 +22,7 @@ class AbeamOfALandmark {
   template <class... Further>
   explicit AbeamOfALandmark(Consistency consistency, const Further&... further)
       : state_(2, 4, consistency, further...) {
-    state_.set_pose({{1.0, 0.0, 0.0}, Eigen::Vector3d(1.0, 1e-12, 1e-12).asDiagonal()});
+    state_.place_robot({{1.0, 0.0, 0.0}, Eigen::Vector3d(1.0, 1e-12, 1e-12).asDiagonal()});
     Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
     noise.topLeftCorner<2, 2>() = 1e-12 * Eigen::Matrix2d::Identity();
     state_.add({0.0, 1.0, 0.0}, Eigen::Matrix3d::Zero(), noise);
