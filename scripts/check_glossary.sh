@@ -9,6 +9,7 @@ page=docs/glossary.md
 
 # Where a word is in its place: path, word, reason. `*` stands for any path.
 exceptions='
+.clang-tidy            unnamed    a parameter without a name
 tests/bags/            leg        joints of a walking robot
 CHANGELOG.md           *          names things as they were called at the time
 workbench/logs/map_forms.cpp  sighting  key of the JSON form of a map, which older programs read
