@@ -36,6 +36,7 @@ step "format, layout, pages and reference"
 scripts/format.sh --check
 scripts/check_layout.sh
 scripts/check_equations.sh
+scripts/check_glossary.sh
 scripts/pages.sh --check
 scripts/doxygen.sh
 step "release build"
