@@ -36,7 +36,7 @@ void read_messages(benchmark::State& state, const std::string& path) {
   state.SetBytesProcessed(bytes);
 }
 
-/// All events, raw pictures as grey pixels.
+/// All events, raw images as grey pixels.
 void read_events(benchmark::State& state, const std::string& path) {
   std::int64_t events = 0;
   for (auto _ : state) {

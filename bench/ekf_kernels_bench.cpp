@@ -1,4 +1,5 @@
-// The kernels of an EKF-SLAM step at 10 range-bearing sightings (D = 20), by state size n = 3 + 2 landmarks.
+// The kernels of an EKF-SLAM step at 10 range-bearing observations (D = 20), by state size n = 3 + 2
+// landmarks.
 #include <array>
 
 #include <benchmark/benchmark.h>

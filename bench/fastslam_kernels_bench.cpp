@@ -8,8 +8,8 @@
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 #include "waymark/kernels/particle_poses.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
 
 namespace waymark::kernels {
 namespace {
@@ -19,18 +19,18 @@ constexpr std::size_t kCount = 256;  // a block of particles, as the filter take
 // Particles near the origin that all know one landmark.
 class Block {
  public:
-  explicit Block(LandmarkForm form, SightingKind kind, std::size_t modes = 1) {
+  explicit Block(LandmarkForm form, ObservationKind kind, std::size_t modes = 1) {
     RandomStream random(1, StreamPurpose::kWorld);
     for (auto* column : {poses.x, poses.y})
       for (std::size_t i = 0; i < kCount; ++i) column[i] = static_cast<float>(0.1 * random.normal());
     for (std::size_t i = 0; i < kCount; ++i) poses.cos[i] = 1.0F;
     for (std::size_t k = 0; k < modes; ++k) modes_.push_back({gaussian(), column()});
-    sighting.seen = {kind, 5.0F, 0.8F, 0.6F, 0.01F, 0.0F, 0.001F};
-    sighting.landmark = {form, 0.0F, 0.0F, column(), column(), modes_.data(), modes};
+    observation.seen = {kind, 5.0F, 0.8F, 0.6F, 0.01F, 0.0F, 0.001F};
+    observation.landmark = {form, 0.0F, 0.0F, column(), column(), modes_.data(), modes};
     FirstGuess guess;
     for (std::size_t k = 0; k < modes; ++k)
       guess.modes[k] = {0.2F + 0.1F * static_cast<float>(k), 0.01F, -std::log(static_cast<float>(modes))};
-    place_landmark(sighting, guess, poses, range);
+    place_landmark(observation, guess, poses, range);
     fill_increments(increment, increments, kCount);
   }
 
@@ -48,7 +48,7 @@ class Block {
                               column(), column(), column(), column()};
   std::array<float*, 3> normals{column(), column(), column()};
   AlignedArray<double> log_weight{kCount}, x_m{kCount}, y_m{kCount}, theta_rad{kCount};
-  Sighting sighting;
+  LandmarkObservation observation;
   ParticleRange range{0, kCount};
 };
 
@@ -58,38 +58,38 @@ void count_items(benchmark::State& state) {
                                             benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void update(benchmark::State& state, LandmarkForm form, SightingKind kind, std::size_t modes) {
+void update(benchmark::State& state, LandmarkForm form, ObservationKind kind, std::size_t modes) {
   Block block(form, kind, modes);
   for (auto _ : state)
-    update_landmark(block.sighting, block.poses, 1.0, block.log_weight.data(), block.range);
+    update_landmark(block.observation, block.poses, 1.0, block.log_weight.data(), block.range);
   count_items(state);
 }
 
 void update_plain(benchmark::State& state) {
-  Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
+  Block block(LandmarkForm::kPoint, ObservationKind::kRangeBearing);
   for (auto _ : state)
-    reference::update_landmark(block.sighting, block.poses, 1.0, block.log_weight.data(), block.range);
+    reference::update_landmark(block.observation, block.poses, 1.0, block.log_weight.data(), block.range);
   count_items(state);
 }
 
-void condition(benchmark::State& state, LandmarkForm form, SightingKind kind) {
+void condition(benchmark::State& state, LandmarkForm form, ObservationKind kind) {
   Block block(form, kind);
   for (auto _ : state)
-    condition_increments(block.sighting, block.increment, block.poses, 1.0, block.increments,
+    condition_increments(block.observation, block.increment, block.poses, 1.0, block.increments,
                          block.log_weight.data(), block.range);
   count_items(state);
 }
 
 void compare(benchmark::State& state) {
-  Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
+  Block block(LandmarkForm::kPoint, ObservationKind::kRangeBearing);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        compare_sighting(block.sighting, {}, block.poses, {}, block.log_weight.data(), block.range));
+        compare_observation(block.observation, {}, block.poses, {}, block.log_weight.data(), block.range));
   count_items(state);
 }
 
 void normals(benchmark::State& state) {
-  Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
+  Block block(LandmarkForm::kPoint, ObservationKind::kRangeBearing);
   DrawKey key;
   for (auto _ : state) {
     ++key.step;
@@ -99,7 +99,7 @@ void normals(benchmark::State& state) {
 }
 
 void draw(benchmark::State& state) {
-  Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
+  Block block(LandmarkForm::kPoint, ObservationKind::kRangeBearing);
   const MovingPoses world{block.x_m.data(), block.y_m.data(), block.theta_rad.data()};
   for (auto _ : state)
     draw_poses(block.increments, block.increment, block.normals[0], block.normals[1], block.normals[2],
@@ -108,22 +108,22 @@ void draw(benchmark::State& state) {
 }
 
 void load(benchmark::State& state) {
-  Block block(LandmarkForm::kPoint, SightingKind::kRangeBearing);
+  Block block(LandmarkForm::kPoint, ObservationKind::kRangeBearing);
   const WorldPoses world{block.x_m.data(), block.y_m.data(), block.theta_rad.data()};
   for (auto _ : state) load_poses(world, 0.0, 0.0, block.poses, kCount);
   count_items(state);
 }
 
-BENCHMARK_CAPTURE(update, range_bearing_of_point, LandmarkForm::kPoint, SightingKind::kRangeBearing, 1);
-BENCHMARK_CAPTURE(update, range_of_point, LandmarkForm::kPoint, SightingKind::kRange, 1);
-BENCHMARK_CAPTURE(update, bearing_of_point, LandmarkForm::kPoint, SightingKind::kBearing, 1);
-BENCHMARK_CAPTURE(update, bearing_of_ray, LandmarkForm::kRay, SightingKind::kBearing, 1);
-BENCHMARK_CAPTURE(update, range_of_ring, LandmarkForm::kRing, SightingKind::kRange, 1);
-BENCHMARK_CAPTURE(update, range_of_ring_of_8, LandmarkForm::kRing, SightingKind::kRange, 8);
+BENCHMARK_CAPTURE(update, range_bearing_of_point, LandmarkForm::kPoint, ObservationKind::kRangeBearing, 1);
+BENCHMARK_CAPTURE(update, range_of_point, LandmarkForm::kPoint, ObservationKind::kRange, 1);
+BENCHMARK_CAPTURE(update, bearing_of_point, LandmarkForm::kPoint, ObservationKind::kBearing, 1);
+BENCHMARK_CAPTURE(update, bearing_of_ray, LandmarkForm::kRay, ObservationKind::kBearing, 1);
+BENCHMARK_CAPTURE(update, range_of_ring, LandmarkForm::kRing, ObservationKind::kRange, 1);
+BENCHMARK_CAPTURE(update, range_of_ring_of_8, LandmarkForm::kRing, ObservationKind::kRange, 8);
 BENCHMARK(update_plain);
-BENCHMARK_CAPTURE(condition, range_bearing_of_point, LandmarkForm::kPoint, SightingKind::kRangeBearing);
-BENCHMARK_CAPTURE(condition, bearing_of_ray, LandmarkForm::kRay, SightingKind::kBearing);
-BENCHMARK_CAPTURE(condition, range_of_ring, LandmarkForm::kRing, SightingKind::kRange);
+BENCHMARK_CAPTURE(condition, range_bearing_of_point, LandmarkForm::kPoint, ObservationKind::kRangeBearing);
+BENCHMARK_CAPTURE(condition, bearing_of_ray, LandmarkForm::kRay, ObservationKind::kBearing);
+BENCHMARK_CAPTURE(condition, range_of_ring, LandmarkForm::kRing, ObservationKind::kRange);
 BENCHMARK(compare);
 BENCHMARK(load);
 BENCHMARK(normals);

@@ -23,17 +23,17 @@ struct Photograph {
   GreyImage image;
 };
 
-/// Pictures of two laps in a room.
+/// Images of two laps in a room.
 std::vector<Photograph> room() {
-  std::vector<Photograph> pictures;
+  std::vector<Photograph> images;
   sim::SimOptions options = *sim::scenario("marker-room");
-  options.film.rate_hz = 0.75;
+  options.camera_simulator.rate_hz = 0.75;
   const auto simulation = sim::Simulation::make("room", options, 1);
   for (auto event = (*simulation)->next(); event && *event; event = (*simulation)->next()) {
     const auto* image = std::get_if<Image>(&(*event)->content);
-    if (image != nullptr) pictures.push_back({"room", "4x4_50", *image->pixels});
+    if (image != nullptr) images.push_back({"room", "4x4_50", *image->pixels});
   }
-  return pictures;
+  return images;
 }
 
 std::vector<Photograph> photographs(const std::filesystem::path& folder) {
@@ -46,41 +46,41 @@ std::vector<Photograph> photographs(const std::filesystem::path& folder) {
   return all;
 }
 
-/// Time per picture; the counter is how many markers it finds in all of them.
+/// Time per image; the counter is how many markers it finds in all of them.
 template <class Detector>
-void detect(benchmark::State& state, Detector& detector, const std::vector<Photograph>& pictures) {
+void detect(benchmark::State& state, Detector& detector, const std::vector<Photograph>& images) {
   std::size_t found = 0;
   for (auto _ : state) {
     found = 0;
-    for (const Photograph& picture : pictures) found += detector.detect(picture.image).size();
+    for (const Photograph& frame : images) found += detector.detect(frame.image).size();
   }
   state.counters["markers"] = static_cast<double>(found);
-  state.counters["per picture"] =
-      benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(pictures.size()),
+  state.counters["per image"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(images.size()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void register_pictures(const std::vector<Photograph>& pictures) {
-  const Photograph& first = pictures.front();
+void register_images(const std::vector<Photograph>& images) {
+  const Photograph& first = images.front();
   const auto dictionary = *markers::find_marker_dictionary(first.dictionary);
   const std::string name = first.name + "/" + std::to_string(first.image.width_px()) + "x" +
                            std::to_string(first.image.height_px());
   benchmark::RegisterBenchmark(("aruco/" + name).c_str(), [=](benchmark::State& state) {
     const auto detector = markers::make_aruco_detector(dictionary);
-    detect(state, *detector, pictures);
+    detect(state, *detector, images);
   })->Unit(benchmark::kMillisecond);
 #ifdef WAYMARK_WITH_OPENCV
   benchmark::RegisterBenchmark(("aruco_opencv/" + name).c_str(), [=](benchmark::State& state) {
     test::OpenCvAruco detector(dictionary);
-    detect(state, detector, pictures);
+    detect(state, detector, images);
   })->Unit(benchmark::kMillisecond);
 #endif
 }
 
 const bool kRegistered = [] {
-  register_pictures(room());
+  register_images(room());
   for (const Photograph& each : photographs(std::filesystem::path(WAYMARK_DATA_DIR) / "marker-photos"))
-    register_pictures({each});
+    register_images({each});
   return true;
 }();
 

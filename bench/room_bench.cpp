@@ -5,23 +5,24 @@
 
 #include <benchmark/benchmark.h>
 
-#include "workbench/sim/film.hpp"
+#include "workbench/sim/camera_simulator.hpp"
 #include "workbench/sim/rooms.hpp"
 
 namespace waymark::sim {
 namespace {
 
-Film film_of(const std::string& name) {
+CameraSimulator camera_simulator_of(const std::string& name) {
   const SimOptions options = *scenario(name);
   const Path path = make_path(options.path, 1);
-  return {options.film, build_scene(options.room, path, 1), drive(path, options, 1), 1, 1};
+  return {options.camera_simulator, build_scene(options.room, path, 1), drive(path, options, 1), 1, 1};
 }
 
 void take_a_lap(benchmark::State& state, const std::string& name) {
-  Film film = film_of(name);
+  CameraSimulator camera_simulator = camera_simulator_of(name);
   for (auto _ : state)
-    for (std::size_t i = 0; i < film.size(); ++i) benchmark::DoNotOptimize(film.take(i));
-  const auto images = static_cast<double>(state.iterations()) * static_cast<double>(film.size());
+    for (std::size_t i = 0; i < camera_simulator.size(); ++i)
+      benchmark::DoNotOptimize(camera_simulator.take(i));
+  const auto images = static_cast<double>(state.iterations()) * static_cast<double>(camera_simulator.size());
   state.counters["images/s"] = benchmark::Counter(images, benchmark::Counter::kIsRate);
 }
 

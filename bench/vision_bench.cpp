@@ -169,7 +169,7 @@ void warp(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(vision::warp_patch(reference, A, 16));
 }
 
-// What a tracker is asked in a picture: 20 landmarks and 4 candidates, and corners in two cells.
+// What a tracker is asked in an image: 20 landmarks and 4 candidates, and corners in two cells.
 class TrackedFrame {
  public:
   TrackedFrame(const vision::TrackerOptions& options, const vision::SearchOptions& search, int threads)
@@ -179,13 +179,14 @@ class TrackedFrame {
   }
 
   void track() {
-    tracker_.track(image_, moved_, expectations_, [](vision::Round, const vision::Sightings& seen) {
+    tracker_.track(image_, moved_, expectations_, [](vision::Round, const vision::SearchOutcome& seen) {
       benchmark::DoNotOptimize(seen);
       return Correction{};
     });
   }
-  [[nodiscard]] double count(vision::Look::Result result) const {
-    return static_cast<double>(std::ranges::count(tracker_.looks(), result, &vision::Look::result));
+  [[nodiscard]] double count(vision::SearchRecord::Result result) const {
+    return static_cast<double>(
+        std::ranges::count(tracker_.search_records(), result, &vision::SearchRecord::result));
   }
   [[nodiscard]] const FunctionBlocks& blocks() const { return tracker_.blocks(); }
 
@@ -196,9 +197,9 @@ class TrackedFrame {
   void learn_corners() {
     const std::vector<Expectation> known = expectations_;
     std::vector<Innovation> taken;
-    tracker_.track(image_, {}, known, [&](vision::Round round, const vision::Sightings& sightings) {
+    tracker_.track(image_, {}, known, [&](vision::Round round, const vision::SearchOutcome& observations) {
       if (round == vision::Round::kLandmarks) return Correction{};
-      for (const Observation& seen : sightings.found) {
+      for (const Observation& seen : observations.found) {
         const auto& place = std::get<Pixel>(seen.value);
         if (expectations_.size() == kFeatures) break;
         taken.push_back({*seen.id, Outcome::kAdded});
@@ -233,14 +234,14 @@ void track_frame(benchmark::State& state, const vision::TrackerOptions& options,
                  const vision::SearchOptions& search) {
   TrackedFrame frame(options, search, 1);
   for (auto _ : state) frame.track();
-  state.counters["found"] = frame.count(vision::Look::Result::kFound);
-  state.counters["new"] = frame.count(vision::Look::Result::kNew);
+  state.counters["found"] = frame.count(vision::SearchRecord::Result::kFound);
+  state.counters["new"] = frame.count(vision::SearchRecord::Result::kNew);
   for (const FunctionBlocks::Row& row : frame.blocks().rows())
     state.counters[std::string(row.name) + " us"] =
         1e6 * to_seconds(row.total) / static_cast<double>(row.calls);
 }
 
-vision::TrackerOptions usual_tracker() { return {.new_corners = {.wanted = 36, .most_new = 2}}; }
+vision::TrackerOptions usual_tracker() { return {.new_corners = {.wanted = 36, .max_new = 2}}; }
 
 vision::TrackerOptions article_tracker(kernels::Instructions instructions) {
   vision::TrackerOptions options = usual_tracker();

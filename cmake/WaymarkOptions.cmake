@@ -10,7 +10,7 @@ if(WAYMARK_BUILD_TESTS)
 endif()
 option(WAYMARK_BUILD_EXAMPLES "Test that the examples build and run against the installed library" ON)
 option(WAYMARK_WITH_OPENCV "Find boards and read videos in calibrate camera, by OpenCV where it is installed" ON)
-option(WAYMARK_WITH_APRILTAG "Find AprilTags in pictures, by libapriltag where it is installed" ON)
+option(WAYMARK_WITH_APRILTAG "Find AprilTags in images, by libapriltag where it is installed" ON)
 option(WAYMARK_COVERAGE "Instrument for coverage" OFF)
 set(WAYMARK_SANITIZE "" CACHE STRING "Sanitizers, for example \"address;undefined\" or \"thread\"")
 set(WAYMARK_DATA_DIR "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH

@@ -2,7 +2,7 @@
 //
 //   state       pose (x, y, theta) and landmarks (x, y), world frame = where the robot starts
 //   motion      increment in the robot frame, 3x3 covariance
-//   sighting    range r and bearing b of a landmark with an identity, 2x2 covariance
+//   observation    range r and bearing b of a landmark with an identity, 2x2 covariance
 //
 // The robot drives a circle around one landmark and past another; its wheels believe it turns 5 % less than
 // it does.
@@ -21,7 +21,7 @@ int main() {
 
   const Eigen::Vector2d landmarks[] = {{0.0, 2.0}, {3.0, 4.0}};
   const Eigen::Matrix3d motion_noise = Eigen::Vector3d(1e-4, 1e-5, 4e-4).asDiagonal();
-  const Eigen::Matrix2d sighting_noise = Eigen::Vector2d(0.05 * 0.05, 0.02 * 0.02).asDiagonal();
+  const Eigen::Matrix2d observation_noise = Eigen::Vector2d(0.05 * 0.05, 0.02 * 0.02).asDiagonal();
 
   Pose2 T_world_robot;     // the truth
   Pose2 T_world_odometry;  // what the wheels alone say
@@ -36,7 +36,7 @@ int main() {
       const auto z =
           RangeBearingModel::linearize(T_world_robot, sensor.T_robot_sensor(), landmarks[number]).predicted;
       scan.push_back(
-          {LandmarkId{LandmarkId::Family::kMarker, number}, RangeBearing{z[0], z[1]}, sighting_noise});
+          {LandmarkId{LandmarkId::Family::kMarker, number}, RangeBearing{z[0], z[1]}, observation_noise});
     }
     filter.correct(scan);
   }

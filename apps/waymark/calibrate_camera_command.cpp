@@ -16,10 +16,10 @@ namespace waymark::app {
 namespace {
 
 using calibrate::Board;
+using calibrate::BoardView;
 using calibrate::CameraCalibration;
 using calibrate::Fate;
 using calibrate::GridSize;
-using calibrate::View;
 
 struct CalibrateCameraRequest {
   std::vector<std::string> inputs;
@@ -29,10 +29,10 @@ struct CalibrateCameraRequest {
   Verbosity verbosity;
 };
 
-/// The inner corners that most pictures show.
+/// The inner corners that most images show.
 std::optional<GridSize> guess(const CalibrateCameraRequest& request, const InputOptions& options) {
-  auto pictures = calibrate::open_pictures(request.inputs, options);
-  return pictures ? calibrate::guess_chessboard(**pictures) : std::nullopt;
+  auto images = calibrate::open_images(request.inputs, options);
+  return images ? calibrate::guess_chessboard(**images) : std::nullopt;
 }
 
 std::string name_of(GridSize grid) { return fmt::format("{}x{}", grid.columns, grid.rows); }
@@ -43,7 +43,7 @@ Error no_chessboard() {
       "corners, where four squares meet; for example 9x6), or --board charuco"};
 }
 
-/// The board that was asked for, or the chessboard that the pictures show.
+/// The board that was asked for, or the chessboard that the images show.
 Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOptions& options) {
   auto board = calibrate::make_board(request.board);
   if (!board) return board;
@@ -52,19 +52,19 @@ Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOpt
   const auto corners = guess(request, options);
   if (!corners) return no_chessboard();
   if (request.verbosity.talks())
-    fmt::print("board: the pictures show {} inner corners; --corners says otherwise\n", name_of(*corners));
+    fmt::print("board: the images show {} inner corners; --corners says otherwise\n", name_of(*corners));
   board->corners = *corners;
   return board;
 }
 
-/// No picture shows the board: what do they show?
+/// No image shows the board: what do they show?
 Error no_board(const CalibrateCameraRequest& request, const InputOptions& options, const Board& board,
                const std::vector<View>& views) {
   const auto unreadable = std::ranges::find(views, Fate::kUnreadable, &View::fate);
   if (unreadable != views.end() &&
       std::ranges::count(views, Fate::kUnreadable, &View::fate) == std::ssize(views))
-    return {fmt::format("none of {} pictures can be read; the first: {}", views.size(), unreadable->why)};
-  std::string message = fmt::format("no {} in any of {} pictures", describe(board), views.size());
+    return {fmt::format("none of {} images can be read; the first: {}", views.size(), unreadable->why)};
+  std::string message = fmt::format("no {} in any of {} images", describe(board), views.size());
   if (board.kind == calibrate::BoardKind::kCharuco) return {message + "; check --squares and --dictionary"};
   if (request.board.corners.empty()) return no_chessboard();
   const auto corners = guess(request, options);
@@ -78,11 +78,11 @@ Result<std::vector<View>> look(const CalibrateCameraRequest& request, const Inpu
                                const Board& board) {
   auto finder = calibrate::make_board_finder(board);
   if (!finder) return finder.error();
-  auto pictures = calibrate::open_pictures(request.inputs, options);
-  if (!pictures) return pictures.error();
+  auto images = calibrate::open_images(request.inputs, options);
+  if (!images) return images.error();
   catch_interrupts();
   ProgressBar bar("looking for the board", request.verbosity);
-  return calibrate::collect_views(**pictures, board, **finder, [&bar](double part) {
+  return calibrate::collect_views(**images, board, **finder, [&bar](double part) {
     bar.show(part);
     return !interrupted();
   });
@@ -131,8 +131,7 @@ Result<void> write(const CameraCalibration& result, const std::filesystem::path&
 Result<void> calibrate_camera(const CalibrateCameraRequest& request) {
   const auto config = resolve_config(request.flags.settings());
   if (!config) return config.error();
-  if (auto pictures = calibrate::open_pictures(request.inputs, config->input); !pictures)
-    return pictures.error();
+  if (auto images = calibrate::open_images(request.inputs, config->input); !images) return images.error();
   const auto board = settle_board(request, config->input);
   if (!board) return board.error();
   auto views = look(request, config->input, *board);
@@ -151,7 +150,7 @@ void add_board(CLI::App& command, calibrate::BoardRequest& board) {
   command.add_option("--board", board.kind, "chessboard (default) or charuco")->type_name("KIND");
   command
       .add_option("--corners", board.corners,
-                  "inner corners of a chessboard, where four squares meet; without it the pictures tell")
+                  "inner corners of a chessboard, where four squares meet; without it the images tell")
       ->type_name("9x6");
   command.add_option("--squares", board.squares, "squares of a ChArUco board")->type_name("5x7");
   command
@@ -167,11 +166,11 @@ void add_board(CLI::App& command, calibrate::BoardRequest& board) {
 
 void add_calibrate_camera(CLI::App& calibrate, Work& work) {
   auto* command = calibrate.add_subcommand(
-      "camera", "Focal length, principal point and distortion of a camera, from pictures of a board");
+      "camera", "Focal length, principal point and distortion of a camera, from images of a board");
   auto request = std::make_shared<CalibrateCameraRequest>();
   command
       ->add_option("input", request->inputs,
-                   "pictures, folders or patterns of them; or one video, ROS bag or log with images")
+                   "images, folders or patterns of them; or one video, ROS bag or log with images")
       ->required();
   command
       ->add_option("-o,--output", request->output,

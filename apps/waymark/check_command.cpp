@@ -45,12 +45,12 @@ struct Stream {
 /// Everything that one pass over a log shows.
 struct Contents {
   std::map<std::string, Stream> streams;  ///< by name
-  std::map<LandmarkId, std::int64_t> sightings;
+  std::map<LandmarkId, std::int64_t> landmark_observations;
   std::int64_t unidentified = 0;
   std::optional<ImageSize> image_size;  ///< of the last image
   std::int64_t blank_images = 0;
   std::set<std::string> measured;  ///< "range and bearing", ...
-  std::vector<eval::Sighting> placed;
+  std::vector<eval::PositionObservation> placed;
   std::vector<eval::TruthSample> truth;
   std::vector<std::string> notes;
   std::optional<Error> error;
@@ -76,7 +76,7 @@ void look_at(const Observations& observations, Stamp stamp, const Pose2& T_robot
       ++contents.unidentified;
       continue;
     }
-    ++contents.sightings[*observation.id];
+    ++contents.observations[*observation.id];
     if (const auto* z = std::get_if<RangeBearing>(&observation.value)) {
       const Eigen::Vector2d ray(std::cos(z->bearing_rad), std::sin(z->bearing_rad));
       contents.placed.push_back({stamp, *observation.id, T_robot_sensor * Eigen::Vector2d(z->range_m * ray)});
@@ -84,14 +84,14 @@ void look_at(const Observations& observations, Stamp stamp, const Pose2& T_robot
   }
 }
 
-/// Nothing can be found in an image all of whose pixels are alike: a covered lens, a picture all black or
+/// Nothing can be found in an image all of whose pixels are alike: a covered lens, an image all black or
 /// white.
 void look_at(const GreyImage& image, Contents& contents) {
-  constexpr int kLeastContrast = 24;
+  constexpr int kMinContrast = 24;
   contents.image_size = {image.width_px(), image.height_px()};
   const auto count = static_cast<std::size_t>(image.width_px()) * static_cast<std::size_t>(image.height_px());
   const auto [darkest, lightest] = std::minmax_element(image.data(), image.data() + count);
-  if (*lightest - *darkest < kLeastContrast) ++contents.blank_images;
+  if (*lightest - *darkest < kMinContrast) ++contents.blank_images;
 }
 
 Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
@@ -122,7 +122,7 @@ std::vector<std::string> survey_oddities(const CheckRequest& request, const LogI
   const Eigen::Vector2d truth_sensor_m = log.truth_sensor_m.value_or(Eigen::Vector2d::Zero());
   if (!contents.truth.empty()) {
     const auto seen =
-        eval::place_sightings(contents.placed, eval::TruthTrack(contents.truth), truth_sensor_m);
+        eval::place_observations(contents.placed, eval::TruthTrack(contents.truth), truth_sensor_m);
     return describe(eval::find_oddities(seen, log.landmarks, Pose2{}));
   }
   const auto result = run_log(request.input, request.flags.settings());
@@ -191,9 +191,9 @@ void print_log_text(const LogInfo& log, const Contents& contents, const std::vec
   for (const auto& kind : contents.measured) fmt::print("  observed: {}\n", kind);
   if (const auto& size = contents.image_size)
     fmt::print("  image size: {} x {} pixels\n", size->width_px, size->height_px);
-  if (!contents.sightings.empty()) {
-    fmt::print("  identities: {}:", contents.sightings.size());
-    for (const auto& [id, count] : contents.sightings) fmt::print(" {} ({}x)", to_string(id), count);
+  if (!contents.observations.empty()) {
+    fmt::print("  identities: {}:", contents.observations.size());
+    for (const auto& [id, count] : contents.observations) fmt::print(" {} ({}x)", to_string(id), count);
     fmt::print("\n");
   }
   fmt::print("  surveyed landmarks: {}\n", log.landmarks.size());
@@ -220,7 +220,7 @@ void print_log_json(const LogInfo& log, const Contents& contents, const std::vec
   json["observed"] = contents.measured;
   if (const auto& size = contents.image_size) json["image_size"] = {size->width_px, size->height_px};
   json["identities"] = nlohmann::ordered_json::object();
-  for (const auto& [id, count] : contents.sightings) json["identities"][to_string(id)] = count;
+  for (const auto& [id, count] : contents.observations) json["identities"][to_string(id)] = count;
   json["surveyed_landmarks"] = log.landmarks.size();
   json["settings"] = nlohmann::ordered_json::object();
   for (const auto& [key, value] : log.settings) json["settings"][key] = value;

@@ -32,7 +32,7 @@ Result<void> show(const MapRequest& request) {
              pose.x_m, pose.y_m, to_degrees(pose.theta_rad), sigma.x(), sigma.y(), to_degrees(sigma.z()));
   fmt::print("  {} landmarks of dimension {}\n", map->ids.size(), map->landmark_dimension);
   fmt::print("  {:<8} {:>8} {:>10} {:>10} {:>10} {:>9} {:>10}\n", "kind", "number", "x_m", "y_m", "z_m",
-             "sigma_m", "sightings");
+             "sigma_m", "observations");
   for (const LandmarkEstimate& landmark : snapshot.landmarks)
     fmt::print("  {:<8} {:>8} {:>10.3f} {:>10.3f} {:>10.3f} {:>9.4f} {:>10}\n",
                family_name(landmark.id.family), landmark.id.number, landmark.position_m.x(),

@@ -11,9 +11,9 @@
 #include "ranks.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/report/sweep_report.hpp"
-#include "workbench/study/crew.hpp"
 #include "workbench/study/sweep.hpp"
 #include "workbench/study/sweep_summary.hpp"
+#include "workbench/study/sweep_workers.hpp"
 
 namespace waymark::app {
 namespace {
@@ -76,9 +76,9 @@ Result<int> count_threads(const SweepRequest& request, const Ranks& ranks) {
 void make_runs(study::Sweep& sweep, Ranks& ranks, int threads, const Verbosity& verbosity) {
   catch_interrupts();
   ProgressBar bar(fmt::format("{} runs", sweep.total()), verbosity);
-  study::Crew crew(sweep, threads);
+  study::SweepWorkers sweep_workers(sweep, threads);
   const auto to_do = static_cast<double>(std::max<std::size_t>(1, sweep.total() - sweep.resumed()));
-  while (static_cast<int>(ranks.serve(sweep)) + static_cast<int>(crew.busy()) > 0) {
+  while (static_cast<int>(ranks.serve(sweep)) + static_cast<int>(sweep_workers.busy()) > 0) {
     if (interrupted()) sweep.stop();
     bar.show(static_cast<double>(sweep.done() - sweep.resumed()) / to_do);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

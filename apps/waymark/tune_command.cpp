@@ -50,7 +50,7 @@ Result<study::TuneResult> tune_logs(const TuneRequest& request, int threads) {
 void print(const TuneRequest& request, const study::TuneResult& result) {
   if (request.verbosity.json) fmt::print("{}\n", tune_json_text(result));
   if (!request.verbosity.talks()) return;
-  fmt::print("{} runs over {} sightings\n{}", result.runs, result.sightings, study::to_text(result));
+  fmt::print("{} runs over {} observations\n{}", result.runs, result.observations, study::to_text(result));
   fmt::print("config: {0}/tuned.yaml\nreport: {0}/report.html\n", request.output);
 }
 
@@ -86,7 +86,7 @@ void add_tune(CLI::App& app, Work& work) {
       ->type_name("OUT");
   command
       ->add_option("--keys", request->keys,
-                   "config keys to tune; default the noise of odometry and sightings")
+                   "config keys to tune; default the noise of odometry and observations")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("KEY,KEY,..");

@@ -25,8 +25,8 @@ TEST(AssociationModel, ALandmarkMustExistToBeSeen) {
   LandmarkSensor sensor = kSensor;
   sensor.detection_probability = 0.8;
   const AssociationModel model({}, sensor);
-  EXPECT_NEAR(model.log_odds_of_sighting(1.0), std::log(4.0), 1e-12);
-  EXPECT_NEAR(model.log_odds_of_sighting(0.5), std::log(0.4 / 0.6), 1e-12);
+  EXPECT_NEAR(model.log_odds_of_observation(1.0), std::log(4.0), 1e-12);
+  EXPECT_NEAR(model.log_odds_of_observation(0.5), std::log(0.4 / 0.6), 1e-12);
 }
 
 }  // namespace

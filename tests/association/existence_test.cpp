@@ -6,14 +6,14 @@ namespace waymark {
 namespace {
 
 AssociationModel model() {
-  return {{.false_alarm_probability = 0.02, .confirmed_log_odds = 6.0, .most_log_odds = 12.0},
+  return {{.false_alarm_probability = 0.02, .confirmed_log_odds = 6.0, .max_log_odds = 12.0},
           {.max_range_m = 10.0, .detection_probability = 0.9}};
 }
 
 TEST(Existence, IsTentativeUntilSeenAgain) {
   Existence existence;
   EXPECT_FALSE(existence.is_confirmed());
-  EXPECT_FALSE(existence.is_ghost());
+  EXPECT_FALSE(existence.is_false_track());
   EXPECT_DOUBLE_EQ(existence.probability(), 0.5);
   existence.see(model());
   EXPECT_FALSE(existence.is_confirmed());
@@ -24,15 +24,15 @@ TEST(Existence, IsTentativeUntilSeenAgain) {
 TEST(Existence, OneMissEndsWhatWasSeenOnce) {
   Existence existence;
   existence.miss(model());
-  EXPECT_TRUE(existence.is_ghost());
+  EXPECT_TRUE(existence.is_false_track());
 }
 
-TEST(Existence, CertaintyEndsSoThatAGhostCanGo) {
+TEST(Existence, CertaintyEndsSoThatAFalseTrackCanGo) {
   Existence existence;
   for (int i = 0; i < 1000; ++i) existence.see(model());
   EXPECT_DOUBLE_EQ(existence.log_odds(), 12.0);
   int misses = 0;
-  for (; !existence.is_ghost(); ++misses) existence.miss(model());
+  for (; !existence.is_false_track(); ++misses) existence.miss(model());
   EXPECT_EQ(misses, 6);  // log(0.1 / 0.98) = -2.3
   EXPECT_TRUE(existence.is_confirmed());
 }
@@ -43,7 +43,7 @@ TEST(Existence, WhatIsCertainStaysSo) {
   existence.see(model());
   EXPECT_TRUE(existence.is_certain());
   EXPECT_TRUE(existence.is_confirmed());
-  EXPECT_FALSE(existence.is_ghost());
+  EXPECT_FALSE(existence.is_false_track());
   EXPECT_EQ(existence.probability(), 1.0);
   EXPECT_FALSE(Existence{}.is_certain());
 }

@@ -28,8 +28,8 @@ class Place {
   [[nodiscard]] const MapState& map() const { return map_; }
   [[nodiscard]] const Pose2& robot() const { return robot_; }
 
-  std::vector<SeenLandmark> look(int count, bool named) {
-    std::vector<SeenLandmark> seen;
+  std::vector<ObservedLandmark> look(int count, bool named) {
+    std::vector<ObservedLandmark> seen;
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector2d noise(random_.normal(), random_.normal());
       const Eigen::Vector2d p_world = map_.landmarks.segment<2>(2 * i);
@@ -100,7 +100,7 @@ TEST(FindPose, CountsPairsThatStandElsewhereAndWereSeenTwice) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Place place(seed);
     auto seen = place.look(6, true);
-    for (SeenLandmark& each : seen) each.times = 2;
+    for (ObservedLandmark& each : seen) each.times = 2;
     EXPECT_EQ(count_contradictions(seen, place.map()), 0) << "seed " << seed;
     seen[2].p_robot += Eigen::Vector2d(30.0, 0.0);
     EXPECT_EQ(count_contradictions(seen, place.map()), 5) << "seed " << seed;

@@ -9,7 +9,7 @@
 namespace waymark {
 namespace {
 
-TEST(Gate, LetsTheChosenPartOfTrueSightingsPass) {
+TEST(Gate, LetsTheChosenPartOfTrueObservationsPass) {
   const Gate gate(GateOptions{0.99});
   EXPECT_NEAR(gate.threshold(1), 6.6349, 1e-4);
   EXPECT_NEAR(gate.threshold(2), 9.2103, 1e-4);

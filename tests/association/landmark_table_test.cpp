@@ -94,7 +94,7 @@ TEST(LandmarkTable, ATentativeLandmarkIsNotInTheMapUntilItIsConfirmed) {
 TEST(LandmarkTable, ATentativeLandmarkIsStaleWhenItWasNotSeenForLong) {
   LandmarkTable table(4);
   table.append(tentative(table.unused_id()));
-  table.travel(kTentativeWay_m);
+  table.travel(kTentativeDistance_m);
   EXPECT_FALSE(table.is_stale(0));
   table.travel(0.1);
   EXPECT_TRUE(table.is_stale(0));

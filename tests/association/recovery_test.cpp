@@ -50,24 +50,24 @@ TEST(Recovery, InflatesUntilHalfOfTheScanIsBelieved) {
   std::vector<Innovation> scan(5, kGatedOnce.front());
   ASSERT_TRUE(recovery.is_lost(scan));
   std::vector<double> sigmas;
-  recovery.recover(scan, [&](const Motion& slip) {
-    EXPECT_TRUE(slip.covariance.isDiagonal());
-    EXPECT_EQ(slip.increment, Pose2{});
-    sigmas.push_back(std::sqrt(slip.covariance(0, 0)));
+  recovery.recover(scan, [&](const Motion& added_motion) {
+    EXPECT_TRUE(added_motion.covariance.isDiagonal());
+    EXPECT_EQ(added_motion.increment, Pose2{});
+    sigmas.push_back(std::sqrt(added_motion.covariance(0, 0)));
     scan[sigmas.size() - 1].outcome = Outcome::kMatched;
   });
   ASSERT_EQ(sigmas.size(), 3U);
   EXPECT_DOUBLE_EQ(sigmas[0], 0.02);
   EXPECT_DOUBLE_EQ(sigmas[1], 0.04);
   EXPECT_DOUBLE_EQ(sigmas[2], 0.08);
-  EXPECT_EQ(recovery.slips(), 1);
+  EXPECT_EQ(recovery.recoveries(), 1);
 }
 
 TEST(Recovery, InflationIsBounded) {
   Recovery recovery;
   const std::vector<Innovation> scan(5, kGatedOnce.front());
   double variance = 0.0;
-  recovery.recover(scan, [&](const Motion& slip) { variance += slip.covariance(2, 2); });
+  recovery.recover(scan, [&](const Motion& added_motion) { variance += added_motion.covariance(2, 2); });
   EXPECT_GT(std::sqrt(variance), 2.0);
   EXPECT_LT(std::sqrt(variance), 4.0);
 }

@@ -234,7 +234,7 @@ TEST(BagSource, PassesOverDepthImagesAndMixesTheOthers) {
   EXPECT_EQ((*images[0].second.pixels)(0, 0), (299 * 10 + 587 * 50 + 114 * 100 + 500) / 1000);
   EXPECT_THAT(source->notes(), Contains(HasSubstr("/a_depth is not used for images: its encoding '32FC1'")));
   EXPECT_TRUE(source->info().only_pixels);
-  EXPECT_TRUE(source->info().identities) << "what is followed in pictures has them";
+  EXPECT_TRUE(source->info().identities) << "what is followed in images has them";
 }
 
 TEST(BagSource, AMosaicOfOneGreyStaysThatGreyWhereItsColoursAgree) {
@@ -303,11 +303,11 @@ std::string tag_corners(double stamp_s, std::initializer_list<std::pair<double, 
   return wire.bytes();
 }
 
-TEST(BagSource, TakesTheCornersOfTagsWhereThereAreNoPictures) {
-  for (const bool pictures : {false, true}) {
+TEST(BagSource, TakesTheCornersOfTagsWhereThereAreNoImages) {
+  for (const bool camera_images : {false, true}) {
     auto made = std::make_unique<MadeBag>();
     const auto tags = made->topic("/detections", "apriltag_msgs/AprilTagDetectionArray");
-    if (pictures) {
+    if (camera_images) {
       const auto images = made->topic("/image_rect", "sensor_msgs/Image");
       made->add(images, 1.0, mono(1.0, "camera", "mono8", 2, "abcd"));
     }
@@ -315,8 +315,8 @@ TEST(BagSource, TakesTheCornersOfTagsWhereThereAreNoPictures) {
     made->add(tags, 1.0, tag_corners(1.0, {{10.5, 40.5}, {30.5, 41.5}, {31.5, 20.5}, {11.5, 19.5}}));
     const auto source = source_of(std::move(made));
     const auto outlines = test::only<MarkerOutlines>(test::read_all(*source).events);
-    ASSERT_EQ(outlines.size(), pictures ? 0U : 1U);
-    if (pictures) continue;
+    ASSERT_EQ(outlines.size(), camera_images ? 0U : 1U);
+    if (camera_images) continue;
     EXPECT_EQ(outlines[0].second[0].id, 17);
     EXPECT_EQ(outlines[0].second[0].corners_px[0], Eigen::Vector2d(11.0, 19.0));
     EXPECT_EQ(outlines[0].second[0].corners_px[2], Eigen::Vector2d(30.0, 41.0));

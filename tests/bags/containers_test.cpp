@@ -77,7 +77,7 @@ class Containers : public testing::Test {
     if (runs(fmt_command(words))) written.push_back(name);
   }
 
-  /// Odometry, sightings and pictures over 4 s, of a camera that is tilted.
+  /// Odometry, observations and images over 4 s, of a camera that is tilted.
   static void write_log() {
     std::string odometry = "stamp_s,x_m,y_m,theta_rad\n", observations = "stamp_s,id,range_m,bearing_rad\n",
                 images = "stamp_s,file\n";

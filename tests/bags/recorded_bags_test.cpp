@@ -71,7 +71,7 @@ TEST(RecordedBags, JackalInBz2) {
   EXPECT_NEAR(length_m(path), 84.2, 0.05);
 }
 
-std::unique_ptr<Source> open_pictures(const char* bag, const char* topic) {
+std::unique_ptr<Source> open_images(const char* bag, const char* topic) {
   InputOptions options;
   options.bag.image_topic = topic;
   return open_recorded(bag, options);
@@ -79,17 +79,17 @@ std::unique_ptr<Source> open_pictures(const char* bag, const char* topic) {
 
 constexpr std::array kTinyBags{"odom-bags/tiny_camera_imu_ros1.bag", "odom-bags/tiny_camera_imu_ros2.db3"};
 
-TEST(RecordedBags, RawPicturesOfRos1AndRos2) {
+TEST(RecordedBags, RawImagesOfRos1AndRos2) {
   for (const char* bag : kTinyBags) {
     WAYMARK_REQUIRE_DATA(bag);
-    const auto source = open_pictures(bag, "");
+    const auto source = open_images(bag, "");
     ASSERT_NE(source, nullptr);
     EXPECT_THAT(source->notes(),
                 Contains(HasSubstr("no sensor_msgs/CameraInfo describes it: `waymark calibrate")));
     const auto images = test::only<Image>(test::read_all(*source).events);
     ASSERT_EQ(images.size(), 3U);
     EXPECT_EQ(to_string(images[1].first), "1700000000.100000000");
-    // Red grows by 40 from picture to picture over green 100 and blue 50.
+    // Red grows by 40 from image to image over green 100 and blue 50.
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(
           *images[static_cast<std::size_t>(i)].second.pixels,
@@ -97,10 +97,10 @@ TEST(RecordedBags, RawPicturesOfRos1AndRos2) {
   }
 }
 
-TEST(RecordedBags, JpegPicturesOfRos1AndRos2StayPackedUntilTheyAreLoaded) {
+TEST(RecordedBags, JpegImagesOfRos1AndRos2StayPackedUntilTheyAreLoaded) {
   for (const char* bag : kTinyBags) {
     WAYMARK_REQUIRE_DATA(bag);
-    const auto packed = open_pictures(bag, "camera/compressed");
+    const auto packed = open_images(bag, "camera/compressed");
     ASSERT_NE(packed, nullptr);
     std::vector<std::size_t> sizes;
     for (const auto& [stamp, image] : test::only<Image>(test::read_all(*packed).events)) {
@@ -108,13 +108,13 @@ TEST(RecordedBags, JpegPicturesOfRos1AndRos2StayPackedUntilTheyAreLoaded) {
       sizes.push_back(image.encoded->size());
     }
     EXPECT_THAT(sizes, ElementsAre(634U, 634U, 633U));
-    ImageLoader loader(open_pictures(bag, "camera/compressed"));
+    ImageLoader loader(open_images(bag, "camera/compressed"));
     for (const auto& [stamp, image] : test::only<Image>(test::read_all(loader).events))
       EXPECT_EQ(image.pixels->width_px(), 8);
   }
 }
 
-TEST(RecordedBags, CameraAndPictureOfTheCeiling) {
+TEST(RecordedBags, CameraAndImageOfTheCeiling) {
   WAYMARK_REQUIRE_DATA("marker-photos/aruco_images.bag");
   auto source = open_recorded("marker-photos/aruco_images.bag");
   ASSERT_NE(source, nullptr);
@@ -153,7 +153,7 @@ TEST(RecordedBags, ACameraThatLooksUpSeesTheCeilingWhereItIs) {
   ASSERT_NE(source, nullptr);
   const auto scans = test::only<Observations>(test::read_all(*source).events);
   const auto& [range_m, bearing_rad] = std::get<RangeBearing>(scans.at(0).second[0].value);
-  // Down in the picture is ahead of the robot.
+  // Down in the image is ahead of the robot.
   EXPECT_NEAR(range_m, std::hypot(1.673025127085304, 0.39191576078598234), 1e-9);
   EXPECT_NEAR(bearing_rad, std::atan2(1.673025127085304, 0.39191576078598234), 1e-9);
 }

@@ -20,7 +20,7 @@ TEST(Board, CornersAreCountedRowByRow) {
   EXPECT_TRUE(board.corner_m(9).isApprox(Eigen::Vector2d(0.0, 0.025)));
 }
 
-TEST(Board, ChessboardMayLeaveOutWhatPicturesTell) {
+TEST(Board, ChessboardMayLeaveOutWhatImagesTell) {
   const auto board = make_board({});
   ASSERT_TRUE(board) << board.error().message;
   EXPECT_EQ(board->size(), 0);

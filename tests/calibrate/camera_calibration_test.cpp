@@ -14,7 +14,7 @@ using test::named;
 using test::photograph;
 using test::true_camera;
 
-std::vector<View> good_views(std::uint64_t seed = 1) {
+std::vector<BoardView> good_views(std::uint64_t seed = 1) {
   return named(photograph(chessboard(), true_camera(), 20, 0.2, seed));
 }
 
@@ -78,7 +78,7 @@ TEST(CameraCalibration, TooFewViewsAreAnErrorThatCounts) {
   for (std::size_t i = 2; i < views.size(); ++i) views[i].fate = Fate::kNoBoard;
   const auto result = calibrate_camera(chessboard(), std::move(views));
   ASSERT_FALSE(result);
-  EXPECT_NE(result.error().message.find("2 of 20 pictures"), std::string::npos) << result.error().message;
+  EXPECT_NE(result.error().message.find("2 of 20 images"), std::string::npos) << result.error().message;
   EXPECT_NE(result.error().message.find("18 no board"), std::string::npos) << result.error().message;
 }
 

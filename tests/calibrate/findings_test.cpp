@@ -33,8 +33,8 @@ Config config() {
   return config;
 }
 
-const Finding* find(const std::vector<Finding>& list, const std::string& key) {
-  const auto found = std::ranges::find(list, key, [](const Finding& f) { return f.found.key; });
+const CalibrationFinding* find(const std::vector<CalibrationFinding>& list, const std::string& key) {
+  const auto found = std::ranges::find(list, key, [](const CalibrationFinding& f) { return f.found.key; });
   return found == list.end() ? nullptr : &*found;
 }
 
@@ -63,12 +63,12 @@ TEST(Findings, OfWheelsAreRadiiAndTrack) {
   EXPECT_NEAR(find(list, "wheels.track_m")->found.sigma / find(list, "wheels.track_m")->found.value,
               0.01 * std::hypot(1.0 / 1.02, 1.0 / 0.97), 1e-12);
   EXPECT_FALSE(find(list, "right radius / left radius")->is_key);
-  EXPECT_FALSE(find(list, "wheels.track_m")->found.is_untold);
+  EXPECT_FALSE(find(list, "wheels.track_m")->found.is_unobservable);
 }
 
 TEST(Findings, SayWhatTheLogDoesNotTell) {
   for (const auto& finding : findings(smoothed(0.099, 0.1), config(), config(), OdometryKind::kWheels))
-    EXPECT_TRUE(finding.found.is_untold) << finding.found.key;
+    EXPECT_TRUE(finding.found.is_unobservable) << finding.found.key;
 }
 
 TEST(Findings, OfAMarkerCameraAreItsMount) {

@@ -20,7 +20,7 @@ TEST(Folds, OfManyPlacesLeaveEachOutOnceAndNeighboursTogether) {
   Places places(23);
   std::iota(places.begin(), places.end(), 4);
   const auto folds = folds_of(places);
-  ASSERT_EQ(folds.size(), kMostFolds);
+  ASSERT_EQ(folds.size(), kMaxFolds);
   Places all;
   for (const Fold& fold : folds) {
     EXPECT_EQ(fold.rest.size() + fold.left_out.size(), places.size());

@@ -17,9 +17,9 @@ LogCalibration calibrate(const std::string& input, std::vector<std::string> sett
   return *std::move(result);
 }
 
-const Finding& finding(const LogCalibration& result, const std::string& key) {
+const CalibrationFinding& finding(const LogCalibration& result, const std::string& key) {
   const auto found =
-      std::ranges::find(result.findings, key, [](const Finding& each) { return each.found.key; });
+      std::ranges::find(result.findings, key, [](const CalibrationFinding& each) { return each.found.key; });
   EXPECT_NE(found, result.findings.end()) << key;
   return *found;
 }
@@ -45,7 +45,7 @@ void expect_found(const std::string& input, const std::vector<std::string>& sett
     EXPECT_TRUE(result.settled) << seed;
     for (Chi2& key : keys) {
       const smooth::CalibratedKey& found = finding(result, key.key).found;
-      EXPECT_FALSE(found.is_untold) << key.key;
+      EXPECT_FALSE(found.is_unobservable) << key.key;
       key.sum += std::pow((found.value - key.truth) / found.sigma, 2);
     }
   }
@@ -99,8 +99,8 @@ TEST(CalibrateMount, SaysWhatStraightMotionDoesNotShow) {
                                  "sim.slip_forward_var_m2_per_m=1e-9", "sim.slip_lateral_var_m2_per_m=1e-9"},
                                 Subject::kMount, {0.0, 10.0});
   for (const char* key : {"wheels.track_m", "sensor.x_m", "sensor.y_m"})
-    EXPECT_TRUE(finding(result, key).found.is_untold) << key;
-  EXPECT_FALSE(finding(result, "wheels.left_radius_m").found.is_untold);
+    EXPECT_TRUE(finding(result, key).found.is_unobservable) << key;
+  EXPECT_FALSE(finding(result, "wheels.left_radius_m").found.is_unobservable);
   EXPECT_THAT(result.notes,
               testing::Contains(testing::AllOf(HasSubstr("not told by this log"), HasSubstr("wheels.track_m"),
                                                HasSubstr("sensor.x_m"))));
@@ -109,7 +109,7 @@ TEST(CalibrateMount, SaysWhatStraightMotionDoesNotShow) {
 TEST(CalibrateOdometry, BearingsDoNotTellTheSizeOfTheWorld) {
   const auto result = calibrate("sim:study", {"observe=bearing", "filter=fastslam"}, Subject::kOdometry);
   EXPECT_THAT(result.notes, testing::Contains(HasSubstr("large world from a small one")));
-  EXPECT_FALSE(finding(result, "wheels.track_m").found.is_untold);
+  EXPECT_FALSE(finding(result, "wheels.track_m").found.is_unobservable);
 }
 
 TEST(CalibrateOdometry, SaysWhatTheLogLacks) {

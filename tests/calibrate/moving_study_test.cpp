@@ -18,7 +18,7 @@ MovingStudy study(const std::string& input, std::vector<std::string> settings) {
 
 const smooth::CalibratedKey* find(const MovingStudy& study, const std::string& key) {
   const auto found =
-      std::ranges::find(study.findings, key, [](const Finding& each) { return each.found.key; });
+      std::ranges::find(study.findings, key, [](const CalibrationFinding& each) { return each.found.key; });
   return found == study.findings.end() ? nullptr : &found->found;
 }
 
@@ -61,28 +61,28 @@ TEST(StudyMoving, OfACameraFindsPixelsAndShakingThatIsMoreThanAssumed) {
     return study("sim:marker-room",
                  {"sim.laps=1", "sim.image_rate_hz=6", "markers.side_sigma_px=0.2", shaking});
   };
-  const MovingStudy found = of_room("camera.vibration_deg=0.1");
+  const MovingStudy found = of_room("camera.jitter_deg=0.1");
   const auto* pixels = find(found, "markers.side_sigma_px");
   ASSERT_NE(pixels, nullptr);
   EXPECT_NEAR(pixels->value, 0.08, 4.0 * pixels->sigma);
   EXPECT_LT(pixels->sigma, 0.01);
-  EXPECT_TRUE(find(found, "camera.vibration_deg")->is_untold);
-  EXPECT_EQ(find(found, "camera.vibration_deg")->value, 0.1);
-  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("camera.vibration_deg stays")));
+  EXPECT_TRUE(find(found, "camera.jitter_deg")->is_unobservable);
+  EXPECT_EQ(find(found, "camera.jitter_deg")->value, 0.1);
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("camera.jitter_deg stays")));
   EXPECT_EQ(find(found, "sensor.range_sigma_m"), nullptr);
   Config config;
   Schema schema = describe(config);
   ASSERT_TRUE(schema.load_text(to_yaml(found), "calibration.yaml").ok());
   EXPECT_NEAR(config.markers.side_sigma_px, pixels->value, 1e-5);
-  EXPECT_GT(find(of_room("camera.vibration_deg=1e-5"), "camera.vibration_deg")->value, 1e-4);
+  EXPECT_GT(find(of_room("camera.jitter_deg=1e-5"), "camera.jitter_deg")->value, 1e-4);
 }
 
 TEST(StudyMoving, SaysWhereNothingTellsTheDelay) {
   const MovingStudy found =
       study("sim:square", {"sim.laps=1", "sim.speed_mps=0.3", "smooth.delay_sigma_s=0.001"});
   ASSERT_NE(find(found, "sensor.delay_s"), nullptr);
-  EXPECT_TRUE(find(found, "sensor.delay_s")->is_untold);
-  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("sensor.delay_s is not told")));
+  EXPECT_TRUE(find(found, "sensor.delay_s")->is_unobservable);
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("sensor.delay_s is not observable")));
 }
 
 TEST(StudyMoving, SaysWhatTheLogLacks) {

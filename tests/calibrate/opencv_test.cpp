@@ -45,7 +45,7 @@ TEST_F(WithoutOpenCv, OneLineSaysHowToGetIt) {
 TEST_F(WithoutOpenCv, NoBoardIsLookedForAndNoVideoRead) {
   const auto finder = make_board_finder(test::chessboard());
   ASSERT_FALSE(finder);
-  EXPECT_THAT(finder.error().message, HasSubstr("finding a board in pictures needs the OpenCV module"));
+  EXPECT_THAT(finder.error().message, HasSubstr("finding a board in images needs the OpenCV module"));
   EXPECT_FALSE(guess_chessboard(test::DrawnBoard{}.draw(test::chessboard(), 480, 400)));
   const auto video = open_video("board.mp4");
   ASSERT_FALSE(video);

@@ -12,11 +12,11 @@ namespace waymark::calibrate {
 namespace {
 
 Result<CameraCalibration> calibrate(const std::string& pattern, const Board& board) {
-  auto pictures = open_pictures({waymark::test::data_path(pattern).string()});
-  if (!pictures) return pictures.error();
+  auto images = open_images({waymark::test::data_path(pattern).string()});
+  if (!images) return images.error();
   auto finder = make_board_finder(board);
   if (!finder) return finder.error();
-  auto views = collect_views(**pictures, board, **finder);
+  auto views = collect_views(**images, board, **finder);
   if (!views) return views.error();
   return calibrate_camera(board, *std::move(views));
 }

@@ -25,18 +25,18 @@ TEST(FitRangeNoise, FindsALineAndNothingNegative) {
 TEST(NoiseOf, CountsWhatWasNotFollowed) {
   RandomStream random(1, StreamPurpose::kWorld);
   constexpr int kCount = 4000;
-  std::vector<smooth::SmoothedSighting> sightings;
+  std::vector<smooth::SmoothedObservation> observations;
   for (int i = 0; i < kCount; ++i) {
     const double range_m = random.uniform(1.0, 5.0);
     const double sigma_m = 0.02 + 0.01 * range_m;
     const Eigen::Vector2d variance(sigma_m * sigma_m, 0.03 * 0.03);
     const Eigen::Vector2d left(0.8 * sigma_m * random.normal(), 0.6 * 0.03 * random.normal());
     const Eigen::Vector2d followed(0.36, 0.64);
-    sightings.push_back({RangeBearing{range_m, random.uniform(-1.0, 1.0)},
-                         {left, 4.0 * variance.cwiseProduct(followed), 4.0 * variance}});
+    observations.push_back({RangeBearing{range_m, random.uniform(-1.0, 1.0)},
+                            {left, 4.0 * variance.cwiseProduct(followed), 4.0 * variance}});
   }
-  sightings[7].remainder.residual[0] = 3.0;
-  const SensorNoise noise = noise_of(sightings);
+  observations[7].remainder.residual[0] = 3.0;
+  const SensorNoise noise = noise_of(observations);
   EXPECT_GE(noise.outliers, 1);
   EXPECT_NEAR(noise.range->sigma_m.value, 0.02, 4.0 * noise.range->sigma_m.sigma);
   EXPECT_NEAR(noise.range->sigma_ratio.value, 0.01, 4.0 * noise.range->sigma_ratio.sigma);
@@ -60,15 +60,15 @@ TEST(OdometryVarianceOf, IsAgainstWhatWasStated) {
   RandomStream random(2, StreamPurpose::kWorld);
   constexpr int kCount = 3000;
   const Eigen::Vector3d larger(2.0, 1.0, 0.5);
-  std::vector<smooth::LegRemainder> legs;
+  std::vector<smooth::IntervalRemainder> intervals;
   for (int i = 0; i < kCount; ++i) {
     const Eigen::Vector3d stated(1e-4, 4e-4, 9e-4);
-    smooth::LegRemainder leg{.followed = 0.5 * stated, .stated = stated};
+    smooth::IntervalRemainder interval{.followed = 0.5 * stated, .stated = stated};
     for (Eigen::Index k = 0; k < 3; ++k)
-      leg.residual[k] = larger[k] * std::sqrt(0.5 * stated[k]) * random.normal();
-    legs.push_back(leg);
+      interval.residual[k] = larger[k] * std::sqrt(0.5 * stated[k]) * random.normal();
+    intervals.push_back(interval);
   }
-  const auto factors = odometry_variance_of(legs);
+  const auto factors = odometry_variance_of(intervals);
   for (std::size_t k = 0; k < 3; ++k) {
     const double variance = larger[static_cast<Eigen::Index>(k)] * larger[static_cast<Eigen::Index>(k)];
     EXPECT_NEAR(factors[k].value, variance, 4.0 * variance * std::sqrt(2.0 / (0.5 * kCount)));

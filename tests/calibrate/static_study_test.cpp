@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A sensor that errs as sensors do: by scale and offset, by what differs from place to place, and by what
-/// differs from sighting to sighting.
+/// differs from observation to observation.
 struct Errors {
   double scale = 1.02, offset_m = 0.03, bearing_offset_rad = 0.02;
   double place_m = 0.01, place_rad = 0.005;
@@ -28,7 +28,7 @@ struct Errors {
 PlaceStudy place(RandomStream& random, const Errors& errors, double range_m, double bearing_rad,
                  int count = 50) {
   const double common_m = errors.place_m * random.normal(), common_rad = errors.place_rad * random.normal();
-  PlaceStudy study{.place = {"made", range_m, bearing_rad, {}}, .scans = 50, .sightings = count};
+  PlaceStudy study{.place = {"made", range_m, bearing_rad, {}}, .scans = 50, .observations = count};
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (int i = 0; i < count; ++i) {
@@ -143,7 +143,7 @@ TEST(StaticStudy, ReadsRecordingsNamedFromTheTable) {
   ASSERT_TRUE(places.ok()) << places.error().message;
   const auto study = study_places(*places, {});
   ASSERT_TRUE(study.ok()) << study.error().message;
-  EXPECT_EQ(study->places[0].sightings, 20);
+  EXPECT_EQ(study->places[0].observations, 20);
   EXPECT_NEAR(study->range_offset_m.value, 0.1, 1e-9);
   EXPECT_NEAR(study->bearing_offset_rad.value, 0.0, 1e-9);
   EXPECT_NEAR(std::sqrt(study->places[1].covariance(0, 0)), 0.01 * std::sqrt(20.0 / 19.0), 1e-9);

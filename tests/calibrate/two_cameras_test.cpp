@@ -36,8 +36,8 @@ CameraOptions zoomed(double by) {
 }
 
 /// A view of the second after each of the first, as long as there are any.
-std::vector<View> alternating(const std::vector<BoardCorners>& first,
-                              const std::vector<BoardCorners>& second) {
+std::vector<BoardView> alternating(const std::vector<BoardCorners>& first,
+                                   const std::vector<BoardCorners>& second) {
   std::vector<BoardCorners> corners;
   for (std::size_t i = 0; i < first.size(); ++i) {
     corners.push_back(first[i]);
@@ -85,7 +85,7 @@ TEST(TwoCameras, AreFoundWhereTheFewAreDropped) {
       calibrate_camera(chessboard(), alternating(photograph(chessboard(), true_camera(), 16, kNoise_px, 3),
                                                  photograph(chessboard(), zoomed(1.3), 4, kNoise_px, 4)));
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_GT(std::ranges::count(result->views, Fate::kOutlier, &View::fate), 0);
+  EXPECT_GT(std::ranges::count(result->views, Fate::kOutlier, &BoardView::fate), 0);
   ASSERT_TRUE(result->two_cameras);
   EXPECT_EQ(result->two_cameras->groups[1].views, Places({1, 3, 5, 7}));
   EXPECT_NE(result->weaknesses[0].what.find(" dropped)"), std::string::npos) << result->weaknesses[0].what;
@@ -104,7 +104,7 @@ TEST(TwoCameras, AreNotSeenInViewsOfABentBoard) {
     EXPECT_FALSE(find_two_cameras(chessboard(), named(photograph_bent(0.001, 15, seed)))) << seed;
 }
 
-TEST(TwoCameras, AreNotSeenWhereBoardsAreParallelToThePicture) {
+TEST(TwoCameras, AreNotSeenWhereBoardsAreParallelToTheImage) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto views = photograph(chessboard(), true_camera(), 12, kNoise_px, seed,
                                   {.tilt_deg = 4.0, .nearest_m = 0.4, .farthest_m = 0.5});

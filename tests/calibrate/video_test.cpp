@@ -21,11 +21,11 @@ TEST(Video, GivesFiveFramesASecondInGrey) {
   ASSERT_TRUE(video) << video.error().message;
   EXPECT_TRUE((*video)->is_stream());
   int frames = 0;
-  while (const auto picture = *(*video)->next()) {
-    ASSERT_TRUE(picture->pixels);
-    EXPECT_EQ(picture->name, "frame " + std::to_string(5 * frames));
-    EXPECT_EQ(picture->pixels->width_px(), 160);
-    EXPECT_NEAR((*picture->pixels)(80, 60), 20 * frames, 6);
+  while (const auto image = *(*video)->next()) {
+    ASSERT_TRUE(image->pixels);
+    EXPECT_EQ(image->name, "frame " + std::to_string(5 * frames));
+    EXPECT_EQ(image->pixels->width_px(), 160);
+    EXPECT_NEAR((*image->pixels)(80, 60), 20 * frames, 6);
     ++frames;
   }
   EXPECT_EQ(frames, 10);

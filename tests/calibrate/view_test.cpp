@@ -7,16 +7,16 @@
 namespace waymark::calibrate {
 namespace {
 
-/// Pictures whose first pixel numbers them.
-class NumberedPictures final : public PictureSource {
+/// Images whose first pixel numbers them.
+class NumberedImages final : public ImageSource {
  public:
-  NumberedPictures(int count, bool is_stream) : count_(count), is_stream_(is_stream) {}
+  NumberedImages(int count, bool is_stream) : count_(count), is_stream_(is_stream) {}
 
-  Result<std::optional<Picture>> next() override {
-    if (next_ == count_) return std::optional<Picture>{};
+  Result<std::optional<NamedImage>> next() override {
+    if (next_ == count_) return std::optional<NamedImage>{};
     GreyImage image(640, 480, 100);
     image(0, 0) = static_cast<std::uint8_t>(next_);
-    return std::optional(Picture{std::to_string(next_++), std::move(image)});
+    return std::optional(NamedImage{std::to_string(next_++), std::move(image)});
   }
   [[nodiscard]] double progress() const override { return static_cast<double>(next_) / count_; }
   [[nodiscard]] bool is_stream() const override { return is_stream_; }
@@ -27,7 +27,7 @@ class NumberedPictures final : public PictureSource {
   int next_ = 0;
 };
 
-/// Knows what every picture shows.
+/// Knows what every image shows.
 class KnowingFinder final : public BoardFinder {
  public:
   explicit KnowingFinder(std::vector<BoardCorners> corners) : corners_(std::move(corners)) {}
@@ -49,42 +49,42 @@ std::vector<BoardCorners> sights() {
 }
 
 std::vector<Fate> fates(bool is_stream) {
-  NumberedPictures pictures(5, is_stream);
+  NumberedImages images(5, is_stream);
   KnowingFinder finder(sights());
-  const auto views = collect_views(pictures, test::chessboard(), finder);
+  const auto views = collect_views(images, test::chessboard(), finder);
   std::vector<Fate> all;
-  for (const View& view : *views) all.push_back(view.fate);
+  for (const BoardView& view : *views) all.push_back(view.fate);
   return all;
 }
 
-TEST(View, FramesLikeOneBeforeArePassedOver) {
+TEST(BoardView, FramesLikeOneBeforeArePassedOver) {
   using enum Fate;
   EXPECT_EQ(fates(true), (std::vector{kUsed, kAlike, kUsed, kNoBoard, kFewCorners}));
   EXPECT_EQ(fates(false), (std::vector{kUsed, kUsed, kUsed, kNoBoard, kFewCorners}));
 }
 
-TEST(View, PicturesAreKeptSmall) {
-  NumberedPictures pictures(1, false);
+TEST(BoardView, ImagesAreKeptSmall) {
+  NumberedImages images(1, false);
   KnowingFinder finder(sights());
-  const auto views = collect_views(pictures, test::chessboard(), finder);
+  const auto views = collect_views(images, test::chessboard(), finder);
   ASSERT_TRUE(views);
-  const View& view = views->front();
+  const BoardView& view = views->front();
   EXPECT_EQ(view.reduction, 2);
   EXPECT_EQ(view.small.width_px(), 320);
   EXPECT_EQ(view.small(100, 100), 100);
 }
 
-TEST(View, UnreadablePicturesSayWhy) {
+TEST(BoardView, UnreadableImagesSayWhy) {
   KnowingFinder finder({});
-  const View view = look_at({"x.png", Error{"x.png: damaged"}}, test::chessboard(), finder);
+  const BoardView view = measure_view({"x.png", Error{"x.png: damaged"}}, test::chessboard(), finder);
   EXPECT_EQ(view.fate, Fate::kUnreadable);
   EXPECT_EQ(view.why, "x.png: damaged");
 }
 
-TEST(View, CanBeStopped) {
-  NumberedPictures pictures(5, false);
+TEST(BoardView, CanBeStopped) {
+  NumberedImages images(5, false);
   KnowingFinder finder(sights());
-  const auto views = collect_views(pictures, test::chessboard(), finder, [](double) { return false; });
+  const auto views = collect_views(images, test::chessboard(), finder, [](double) { return false; });
   ASSERT_FALSE(views);
   EXPECT_EQ(views.error().kind, Error::Kind::kFailed);
 }

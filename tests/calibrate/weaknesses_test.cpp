@@ -14,7 +14,7 @@ using test::named;
 using test::photograph;
 using test::true_camera;
 
-std::string weaknesses_of(std::vector<View> views) {
+std::string weaknesses_of(std::vector<BoardView> views) {
   const auto result = calibrate_camera(chessboard(), std::move(views));
   if (!result) return "error: " + result.error().message;
   std::string text;
@@ -29,21 +29,21 @@ TEST(Weaknesses, FewViews) {
   EXPECT_TRUE(names(text, "only 5 views")) << text;
 }
 
-TEST(Weaknesses, BoardsParallelToThePicture) {
+TEST(Weaknesses, BoardsParallelToTheImage) {
   const auto text = weaknesses_of(named(photograph(chessboard(), true_camera(), 15, 0.2, 2,
                                                    {.tilt_deg = 3.0, .nearest_m = 0.45, .farthest_m = 0.5})));
-  EXPECT_TRUE(names(text, "parallel to the picture")) << text;
+  EXPECT_TRUE(names(text, "parallel to the image")) << text;
   EXPECT_TRUE(names(text, "focal length is known to")) << text;
 }
 
-TEST(Weaknesses, OneCornerOfThePicture) {
+TEST(Weaknesses, OneCornerOfTheImage) {
   std::vector<BoardCorners> views;
   for (const auto& view : photograph(chessboard(), true_camera(), 400, 0.2, 3, {.farthest_m = 0.9}))
     if (std::ranges::all_of(view, [](const auto& c) { return c.pixel.x() < 360.0 && c.pixel.y() < 300.0; }))
       views.push_back(view);
   ASSERT_GE(views.size(), 10U);
   const auto text = weaknesses_of(named(views));
-  EXPECT_TRUE(names(text, "of the picture")) << text;
+  EXPECT_TRUE(names(text, "of the image")) << text;
 }
 
 TEST(Weaknesses, LargeErrors) {

@@ -32,7 +32,7 @@ bool operator==(const Options& a, const Options& b) {
 }
 
 void describe(Schema& schema, Options& o) {
-  schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true sightings that may pass");
+  schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true observations that may pass");
   schema.real("camera.x_m", o.offset_m, {}, "camera ahead of the robot's origin, m");
   schema.integer("filter.particles", o.particles, {1, 10000}, "number of particles");
   schema.integer("seed", o.seed, {0}, "seed of all random numbers");
@@ -233,7 +233,7 @@ TEST_F(ConfigTest, PrintsHelpLimitsAndDefaults) {
   ASSERT_TRUE(schema_.set("gate.probability", "0.75", "here").ok());
   EXPECT_THAT(schema_.to_yaml(),
               HasSubstr("gate:\n"
-                        "  # part of the true sightings that may pass (0.5 to 1; default 0.99)\n"
+                        "  # part of the true observations that may pass (0.5 to 1; default 0.99)\n"
                         "  probability: 0.75\n"
                         "  # tell what was refused (true or false; default false)\n"
                         "  verbose: false\n"));

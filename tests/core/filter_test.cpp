@@ -11,8 +11,8 @@ namespace waymark {
 namespace {
 
 constexpr Outcome kOutcomes[] = {
-    Outcome::kMatched,   Outcome::kAdded,     Outcome::kGated,   Outcome::kUnidentified, Outcome::kUnusable,
-    Outcome::kAmbiguous, Outcome::kDuplicate, Outcome::kPending, Outcome::kMapFull,      Outcome::kNotInMap};
+    Outcome::kMatched,   Outcome::kAdded,     Outcome::kGated,    Outcome::kUnidentified, Outcome::kUnusable,
+    Outcome::kAmbiguous, Outcome::kDuplicate, Outcome::kDeferred, Outcome::kMapFull,      Outcome::kNotInMap};
 
 TEST(Correction, CountsInnovationsByOutcome) {
   std::vector<Innovation> innovations;

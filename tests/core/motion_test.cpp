@@ -90,9 +90,9 @@ TEST(Compose, IsAssociativeAndKeepsCovariances) {
 }
 
 TEST(Way, CountsTurnsToo) {
-  EXPECT_EQ(way_m(Motion{}), 0.0);
-  EXPECT_NEAR(way_m({{0.3, -0.4, 0.0}, {}}), 0.5, 1e-15);
-  EXPECT_NEAR(way_m({{0.3, -0.4, -1.0}, {}}), 0.8, 1e-15);
+  EXPECT_EQ(travelled_m(Motion{}), 0.0);
+  EXPECT_NEAR(travelled_m({{0.3, -0.4, 0.0}, {}}), 0.5, 1e-15);
+  EXPECT_NEAR(travelled_m({{0.3, -0.4, -1.0}, {}}), 0.8, 1e-15);
 }
 
 TEST(IsStill, OnlyWithoutMotionAndWithoutNoise) {

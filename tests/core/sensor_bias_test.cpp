@@ -11,10 +11,10 @@ TEST(CalibrationEstimate, TellsWhatWasLearntFromWhatWasAssumed) {
   estimate.sigmas[kSpeedScale] = 0.02;
   estimate.sigmas[kTurnScale] = 0.099;
   EXPECT_TRUE(estimate.is_estimated(kSpeedScale));
-  EXPECT_FALSE(estimate.is_untold(kSpeedScale));
-  EXPECT_TRUE(estimate.is_untold(kTurnScale));
+  EXPECT_FALSE(estimate.is_unobservable(kSpeedScale));
+  EXPECT_TRUE(estimate.is_unobservable(kTurnScale));
   EXPECT_FALSE(estimate.is_estimated(kRangeScale));
-  EXPECT_FALSE(estimate.is_untold(kRangeScale));
+  EXPECT_FALSE(estimate.is_unobservable(kRangeScale));
 }
 
 }  // namespace

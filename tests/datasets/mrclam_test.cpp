@@ -40,16 +40,16 @@ TEST(Mrclam, MapsBarcodesToLandmarksAndSkipsRobotsAndStrangers) {
   write_dataset(folder);
   const auto log = open_robot(folder);
   const auto events = test::read_all(*log).events;
-  const auto sightings = only<Observations>(events);
-  ASSERT_EQ(sightings.size(), 1U);
-  EXPECT_EQ(sightings[0].first, parse_stamp("10.05"));
-  ASSERT_EQ(sightings[0].second.size(), 2U);
-  EXPECT_EQ(sightings[0].second[0].id, (LandmarkId{LandmarkId::Family::kBarcode, 6}));
-  EXPECT_EQ(sightings[0].second[1].id, (LandmarkId{LandmarkId::Family::kBarcode, 7}));
-  EXPECT_EQ(std::get<RangeBearing>(sightings[0].second[0].value).range_m, 2.5);
-  EXPECT_EQ(std::get<RangeBearing>(sightings[0].second[0].value).bearing_rad, 0.5);
-  EXPECT_THAT(log->notes(), ElementsAre("sightings skipped of other robots: 1",
-                                        "sightings skipped of barcode 99, which is in no table: 1"));
+  const auto observations = only<Observations>(events);
+  ASSERT_EQ(observations.size(), 1U);
+  EXPECT_EQ(observations[0].first, parse_stamp("10.05"));
+  ASSERT_EQ(observations[0].second.size(), 2U);
+  EXPECT_EQ(observations[0].second[0].id, (LandmarkId{LandmarkId::Family::kBarcode, 6}));
+  EXPECT_EQ(observations[0].second[1].id, (LandmarkId{LandmarkId::Family::kBarcode, 7}));
+  EXPECT_EQ(std::get<RangeBearing>(observations[0].second[0].value).range_m, 2.5);
+  EXPECT_EQ(std::get<RangeBearing>(observations[0].second[0].value).bearing_rad, 0.5);
+  EXPECT_THAT(log->notes(), ElementsAre("observations skipped of other robots: 1",
+                                        "observations skipped of barcode 99, which is in no table: 1"));
 }
 
 TEST(Mrclam, ReadsVelocityAndTruthInTheOrderOfTime) {
@@ -172,8 +172,8 @@ struct Recorded {
   const char* dataset;
   int robot;
   std::size_t odometry_rows;
-  std::size_t landmark_sightings;
-  int robot_sightings;
+  std::size_t landmark_observations;
+  int robot_observations;
   std::vector<std::string> further_notes;
   std::size_t truth_rows = 0;  // 0: not counted
 };
@@ -196,8 +196,9 @@ TEST_P(MrclamRecording, HoldsTheKnownCounts) {
   const auto back =
       std::ranges::count_if(notes, [](const auto& note) { return note.find("go back") != note.npos; });
   EXPECT_EQ(only<Velocity>(delivered.events).size() + static_cast<std::size_t>(back), known.odometry_rows);
-  EXPECT_EQ(test::count_observations(delivered.events), known.landmark_sightings);
-  EXPECT_THAT(notes, Contains("sightings skipped of other robots: " + std::to_string(known.robot_sightings)));
+  EXPECT_EQ(test::count_observations(delivered.events), known.landmark_observations);
+  EXPECT_THAT(notes,
+              Contains("observations skipped of other robots: " + std::to_string(known.robot_observations)));
   if (known.truth_rows > 0) {
     EXPECT_EQ(only<Truth>(delivered.events).size(), known.truth_rows);
   }
@@ -205,7 +206,7 @@ TEST_P(MrclamRecording, HoldsTheKnownCounts) {
 }
 
 std::string unknown_barcode(int barcode, int count) {
-  return "sightings skipped of barcode " + std::to_string(barcode) +
+  return "observations skipped of barcode " + std::to_string(barcode) +
          ", which is in no table: " + std::to_string(count);
 }
 

@@ -28,7 +28,7 @@ class BadInput : public testing::TestWithParam<ekf::Consistency> {
     EXPECT_TRUE(is_covariance(filter_.state().covariance()));
   }
 
-  /// After whatever happened, good sightings are still taken in.
+  /// After whatever happened, good observations are still taken in.
   void expect_alive() {
     expect_sound();
     filter_.predict(world_.move());
@@ -45,7 +45,7 @@ class BadInput : public testing::TestWithParam<ekf::Consistency> {
   EkfSlam filter_{{GetParam(), 8}, world_.sensor()};
 };
 
-TEST_P(BadInput, TwoSightingsOfOneLandmarkInOneScan) {
+TEST_P(BadInput, TwoObservationsOfOneLandmarkInOneScan) {
   drive(20);
   std::vector<Observation> scan = world_.look();
   scan.push_back(world_.sight(2));
@@ -55,12 +55,12 @@ TEST_P(BadInput, TwoSightingsOfOneLandmarkInOneScan) {
   const auto& correction = filter_.correct(scan);
   EXPECT_EQ(correction.innovations.front().outcome, Outcome::kGated);
   EXPECT_EQ(correction.innovations[3].outcome, Outcome::kMatched)
-      << "a refused sighting does not stand for its landmark";
+      << "a refused observation does not stand for its landmark";
   EXPECT_EQ(correction.innovations.back().outcome, Outcome::kDuplicate);
   expect_alive();
 }
 
-TEST_P(BadInput, SightingsThatContradictEachOtherWithinTheirGates) {
+TEST_P(BadInput, ObservationsThatContradictEachOtherWithinTheirGates) {
   drive(3);
   filter_.predict({{}, 4.0 * Eigen::Matrix3d::Identity()});
   std::vector<Observation> scan = world_.look();
@@ -81,7 +81,7 @@ TEST_P(BadInput, AnInnovationCovarianceThatIsSingular) {
   }
 }
 
-TEST_P(BadInput, SightingsOfImpossiblePrecision) {
+TEST_P(BadInput, ObservationsOfImpossiblePrecision) {
   drive(20);
   for (int i = 0; i < 20; ++i) {
     std::vector<Observation> scan = world_.look();

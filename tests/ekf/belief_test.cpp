@@ -5,14 +5,14 @@
 #include "support/matrix_near.hpp"
 #include "waymark/core/random.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
 
 using test::matrix_near;
 using test::random_motion;
-using test::random_sighting;
+using test::random_observation;
 using test::small_map;
 
 TEST(Belief, MarginalsAreBlocksOfTheWholeCovariance) {
@@ -27,12 +27,12 @@ TEST(Belief, MarginalsAreBlocksOfTheWholeCovariance) {
                             P.block(3 + 2 * i, 3 + 2 * i, 2, 2), 0.0));
 }
 
-TEST(Belief, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
+TEST(Belief, InnovationCovarianceOfOneObservationIsTheDenseFormula) {
   RandomStream random(4, StreamPurpose::kWorld);
   const auto made = small_map(random, 5);
   State& state = *made;
   state.predict(random_motion(random));
-  const Sighting s = random_sighting(random, 3, 2);
+  const LinearizedObservation s = random_observation(random, 3, 2);
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, 13);
   H.leftCols<3>() = s.H_pose;
   H.middleCols<2>(9) = s.H_landmark.leftCols<2>();
@@ -42,12 +42,12 @@ TEST(Belief, InnovationCovarianceOfOneSightingIsTheDenseFormula) {
   EXPECT_TRUE(matrix_near(state.pose_correlation(s), C, 1e-14));
 }
 
-TEST(Belief, SightingsHaveInCommonWhatTheDenseFormulaSays) {
+TEST(Belief, ObservationsHaveInCommonWhatTheDenseFormulaSays) {
   RandomStream random(5, StreamPurpose::kWorld);
   const auto made = small_map(random, 5);
   made->predict(random_motion(random));
-  const Sighting a = random_sighting(random, 3, 2);
-  const Sighting b = random_sighting(random, 1, 2);
+  const LinearizedObservation a = random_observation(random, 3, 2);
+  const LinearizedObservation b = random_observation(random, 1, 2);
   const StateLayout& layout = made->layout();
   const Eigen::MatrixXd expected = test::dense(layout.touched(a, 2), made->size()) * made->covariance() *
                                    test::dense(layout.touched(b, 2), made->size()).transpose();
@@ -62,8 +62,8 @@ TEST(Belief, LinearizesAtTheFirstEstimatesOnlyWhereAsked) {
     const Pose2 predicted = state.pose().T_world_robot;
     const Eigen::Vector3d first(3.0, 4.0, 0.0);
     state.add(first, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity());
-    const Sighting sighting = random_sighting(random, 0, 2);
-    ASSERT_TRUE(state.update({&sighting, 1}));
+    const LinearizedObservation linearized = random_observation(random, 0, 2);
+    ASSERT_TRUE(state.update({&linearized, 1}));
     ASSERT_NE(state.pose().T_world_robot, predicted);
     const bool at_first = mode == Consistency::kFej;
     EXPECT_EQ(state.linearization_pose(), at_first ? predicted : state.pose().T_world_robot);

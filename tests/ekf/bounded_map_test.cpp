@@ -20,14 +20,14 @@ using test::PixelWorld;
 
 const Eigen::Vector3d kCorner(4.0, 0.3, 0.6);
 
-/// A sighting that tells the more about the pose, the larger `news`.
-PoseSighting telling(double news) {
-  PoseSighting sighting;
-  sighting.P_pose.setIdentity();
-  sighting.H_pose << news, 0.0, 0.0, 0.0, news, 0.0;
-  sighting.C_pose = sighting.H_pose.transpose();
-  sighting.S = (1.0 + news * news) * Eigen::Matrix2d::Identity();
-  return sighting;
+/// An observation that tells the more about the pose, the larger `information`.
+PoseObservation telling(double information) {
+  PoseObservation linearization;
+  linearization.P_pose.setIdentity();
+  linearization.H_pose << information, 0.0, 0.0, 0.0, information, 0.0;
+  linearization.C_pose = linearization.H_pose.transpose();
+  linearization.S = (1.0 + information * information) * Eigen::Matrix2d::Identity();
+  return linearization;
 }
 
 std::vector<LandmarkId> removed(const BoundedMap& map) {
@@ -37,25 +37,25 @@ std::vector<LandmarkId> removed(const BoundedMap& map) {
 TEST(BoundedMap, TheLeastUsefulOneThatIsNotInViewMakesRoom) {
   PixelWorld world({.capacity = 3});
   world.load(test::wall(3));
-  world.map.begin_picture();
+  world.map.begin_image();
   world.map.matched(0, telling(0.5));
   world.map.matched(1, telling(0.1));
   world.map.matched(2, telling(1.0));
   EXPECT_FALSE(world.map.make_room()) << "all are in view";
-  world.map.begin_picture();
+  world.map.begin_image();
   ASSERT_TRUE(world.map.make_room());
   EXPECT_EQ(removed(world.map), std::vector{corner_id(1)});
   EXPECT_FALSE(world.map.map().find(corner_id(1)));
   EXPECT_TRUE(world.map.make_room());
   EXPECT_EQ(world.map.map().features().size(), 2U) << "there was room";
-  world.map.begin_picture();
+  world.map.begin_image();
   EXPECT_TRUE(world.map.removed().empty());
 }
 
 TEST(BoundedMap, WithoutEvictionAFullMapStaysAsItIs) {
   PixelWorld world({.capacity = 3, .evict = Eviction::kNone});
   world.load(test::wall(3));
-  world.map.begin_picture();
+  world.map.begin_image();
   EXPECT_FALSE(world.map.make_room());
   EXPECT_EQ(world.map.map().features().size(), 3U);
 }
@@ -63,7 +63,7 @@ TEST(BoundedMap, WithoutEvictionAFullMapStaysAsItIs) {
 TEST(BoundedMap, WhoKeepsFailingIsRetired) {
   PixelWorld world;
   world.load(test::wall(3));
-  world.map.begin_picture();
+  world.map.begin_image();
   for (int k = 0; k < 12; ++k) {
     world.map.missed(1);
     if (k % 2 == 0) {
@@ -78,7 +78,7 @@ TEST(BoundedMap, WhoKeepsFailingIsRetired) {
 
 TEST(BoundedMap, ARayBecomesAPointWhereItIsAsGoodAsLinear) {
   PixelWorld world;
-  world.map.begin_picture();
+  world.map.begin_image();
   world.add_ray(0, kCorner, 0.2);
   world.add_ray(1, kCorner, 0.001);
   const Eigen::Vector3d here = world.here().p_world_camera;
@@ -94,7 +94,7 @@ TEST(BoundedMap, ARayBecomesAPointWhereItIsAsGoodAsLinear) {
 
 TEST(BoundedMap, ARayThatLeadsBehindInfinityGoes) {
   PixelWorld world;
-  world.map.begin_picture();
+  world.map.begin_image();
   const int anchor = *world.map.map().add_anchor();
   const auto behind = [&](int number, double rho) {
     return world.map.add_ray(corner_id(number), anchor, {0.0, 0.0, rho},
@@ -108,7 +108,7 @@ TEST(BoundedMap, ARayThatLeadsBehindInfinityGoes) {
 
 TEST(BoundedMap, FreesTheAnchorOfTheLeastUsefulRaysThatNobodyNeeds) {
   PixelWorld world;
-  world.map.begin_picture();
+  world.map.begin_image();
   world.map.map().hold(
       world.map.map().feature(world.add_ray(0, kCorner, 0.2)).anchor);  // by a candidate, say
   for (int k = 1; world.map.map().has_free_anchor(); ++k) {
@@ -116,7 +116,7 @@ TEST(BoundedMap, FreesTheAnchorOfTheLeastUsefulRaysThatNobodyNeeds) {
     world.map.matched(ray, telling(k == 6 ? 0.1 : k == 7 ? 0.2 : 1.0));
   }
   EXPECT_FALSE(world.map.free_an_anchor()) << "all are in view";
-  world.map.begin_picture();
+  world.map.begin_image();
   ASSERT_TRUE(world.map.free_an_anchor());
   EXPECT_TRUE(world.map.map().has_free_anchor());
   EXPECT_TRUE(world.map.map().feature(6).is_point()) << "of fairly sure depth";
@@ -129,7 +129,7 @@ TEST(BoundedMap, FreesTheAnchorOfTheLeastUsefulRaysThatNobodyNeeds) {
 
 TEST(BoundedMap, ACandidateThatIsGivenUpLeavesItsAnchor) {
   PixelWorld world;
-  world.map.begin_picture();
+  world.map.begin_image();
   world.map.give_up(corner_id(5), *world.map.map().add_anchor());
   EXPECT_EQ(removed(world.map), std::vector{corner_id(5)});
   EXPECT_EQ(world.map.map().state().landmarks(), 0);
@@ -188,7 +188,7 @@ TEST(BoundedMap, AllocatesNothingOnceItIsMade) {
   PixelWorld world({.capacity = 4});
   const test::AllocationCount count;
   for (int k = 0; k < 100; ++k) {
-    world.map.begin_picture();
+    world.map.begin_image();
     ASSERT_TRUE(world.map.free_an_anchor());
     ASSERT_TRUE(world.map.make_room());
     const int feature = world.add_ray(k, kCorner, k % 2 == 0 ? 0.2 : 0.001);

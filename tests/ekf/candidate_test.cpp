@@ -44,14 +44,14 @@ TEST(Candidate, StartsWithoutMemoryOfTheOneBefore) {
   OneCandidate world;
   const std::size_t all = world.candidate.depths.size();
   world.learn_depth(0.5, 0.05);
-  world.candidate.looks = world.candidate.matches = world.candidate.pictures = 3;
+  world.candidate.looks = world.candidate.matches = world.candidate.images = 3;
   EXPECT_LT(world.candidate.depths.size(), all);
   world.candidate.start(test::corner_id(8), 2, {0.1, 0.2}, Eigen::Matrix2d::Identity());
   EXPECT_EQ(world.candidate.id, test::corner_id(8));
   EXPECT_FALSE(world.candidate.is_free());
   EXPECT_EQ(world.candidate.ray(0.4), Eigen::Vector3d(0.1, 0.2, 0.4));
   EXPECT_EQ(world.candidate.depths.size(), all);
-  EXPECT_EQ(world.candidate.looks + world.candidate.matches + world.candidate.pictures, 0);
+  EXPECT_EQ(world.candidate.looks + world.candidate.matches + world.candidate.images, 0);
   EXPECT_TRUE(Candidate{.depths = DepthParticles(DepthPrior())}.is_free());
 }
 
@@ -64,7 +64,7 @@ TEST(CandidatePrediction, IsWhereTheCornerIsAtItsDepth) {
 }
 
 TEST(CandidatePrediction, CovarianceIsThatOfRobotAnchorRayVibrationAndWandering) {
-  OneCandidate world({.wander_px = 0.3, .vibration_deg = 0.2});
+  OneCandidate world({.landmark_noise_px = 0.3, .jitter_deg = 0.2});
   world.move({0.4, 0.1, 0.05}, 0.02);
   const Camera& camera = world.prediction.camera();
   const auto pixel = [&](const Eigen::Matrix<double, 8, 1>& x) -> Eigen::Vector2d {
@@ -89,11 +89,11 @@ TEST(CandidatePrediction, CovarianceIsThatOfRobotAnchorRayVibrationAndWandering)
   const Eigen::Vector3d p_camera = world.in_camera(world.corner);
   const Eigen::Matrix2d J =
       world.prediction.noise().vibration(p_camera, camera.project(p_camera)->dpixel_dpoint)[0].J.topRows<2>();
-  const double wandered_px2 = world.prediction.noise().wandered_px2(
+  const double process_noise_px2 = world.prediction.noise().process_noise_px2(
       world.corner, camera.pose(anchor).p_world_camera, camera.pose(here).p_world_camera);
-  EXPECT_GT(wandered_px2, 0.0);
+  EXPECT_GT(process_noise_px2, 0.0);
   const Eigen::Matrix2d expected =
-      H * P * H.transpose() + J * J.transpose() + wandered_px2 * Eigen::Matrix2d::Identity();
+      H * P * H.transpose() + J * J.transpose() + process_noise_px2 * Eigen::Matrix2d::Identity();
   EXPECT_TRUE(matrix_near(world.predicted().at(world.rho)->S, expected, 1e-6 * expected.trace()));
 }
 
@@ -119,7 +119,7 @@ TEST(CandidatePrediction, ExpectsTheMomentsOfAllThatItsDepthsPredict) {
   EXPECT_TRUE(matrix_near(expected->p_world_m, world.corner, 0.1));
 }
 
-TEST(CandidatePrediction, ExpectsNothingBesideThePicture) {
+TEST(CandidatePrediction, ExpectsNothingBesideTheImage) {
   OneCandidate world;
   EXPECT_TRUE(world.predicted().expect());
   world.move({0.0, 0.0, 0.6});

@@ -30,19 +30,19 @@ class Wanderer {
     return {increment, test::random_covariance<3>(random_, 1e-4)};
   }
 
-  /// Sightings of no particular sensor, of landmarks about the place where step `step` finds the robot.
-  std::vector<Sighting> look(int step, int landmarks, double innovation = 0.05) {
+  /// Observations of no particular sensor, of landmarks about the place where step `step` finds the robot.
+  std::vector<LinearizedObservation> look(int step, int landmarks, double innovation = 0.05) {
     const double place = 0.5 - 0.5 * std::cos(0.011 * step);
-    std::vector<Sighting> sightings;
+    std::vector<LinearizedObservation> linearizations;
     const int count = 1 + static_cast<int>(random_.uniform() * 6);
     for (int i = 0; i < count; ++i) {
       const int near = static_cast<int>(place * landmarks) + static_cast<int>(random_.uniform(-8.0, 8.0));
       const bool stray = random_.uniform() < 0.01;  // a landmark from anywhere
       const int landmark =
           stray ? static_cast<int>(random_.uniform() * landmarks) : std::clamp(near, 0, landmarks - 1);
-      sightings.push_back(sight(landmark, innovation));
+      linearizations.push_back(sight(landmark, innovation));
     }
-    return sightings;
+    return linearizations;
   }
 
   Eigen::Vector3d position() {
@@ -69,8 +69,8 @@ class Wanderer {
   RandomStream& random() { return random_; }
 
  private:
-  Sighting sight(int landmark, double innovation) {
-    Sighting s;
+  LinearizedObservation sight(int landmark, double innovation) {
+    LinearizedObservation s;
     s.landmark = landmark;
     s.rows = random_.uniform() < 0.3 ? 1 : 2;
     s.nu = Eigen::Vector2d(random_.normal(), random_.normal()) * innovation;
@@ -88,7 +88,7 @@ class Wanderer {
 };
 
 constexpr int kCapacity = 300;
-constexpr Compression kSmallRegions{48, 48};
+constexpr Compression kSmallSubmaps{48, 48};
 
 struct CompressedCase {
   int dimension;
@@ -100,7 +100,7 @@ struct CompressedCase {
 class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
  protected:
   CompressedAgainstWhole()
-      : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallRegions, 1,
+      : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallSubmaps, 1,
                     GetParam().error_pairs),
         whole_(GetParam().dimension, kCapacity, GetParam().consistency, 1, GetParam().error_pairs),
         wanderer_(GetParam().dimension, GetParam().error_pairs) {}
@@ -109,27 +109,27 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
     const Motion motion = wanderer_.move();
     compressed_.predict(motion);
     whole_.predict(motion);
-    if (GetParam().error_pairs > 0) relax();
+    if (GetParam().error_pairs > 0) propagate();
     const double what = wanderer_.random().uniform();
     if (whole_.landmarks() < kCapacity && (what < 0.35 || whole_.landmarks() == 0)) return add();
     if (what > 0.97) return remove(static_cast<int>(wanderer_.random().uniform() * whole_.landmarks()));
-    const auto sightings = wanderer_.look(step, whole_.landmarks(), innovation);
-    for (const Sighting& s : sightings)
+    const auto linearizations = wanderer_.look(step, whole_.landmarks(), innovation);
+    for (const LinearizedObservation& s : linearizations)
       EXPECT_TRUE(
           matrix_near(compressed_.innovation_covariance(s), whole_.innovation_covariance(s), tolerance_));
     const bool unsettled = !compressed_.settled();
-    const bool entering =
-        std::ranges::any_of(sightings, [&](const Sighting& s) { return !compressed_.is_active(s.landmark); });
+    const bool entering = std::ranges::any_of(
+        linearizations, [&](const LinearizedObservation& s) { return !compressed_.is_active(s.landmark); });
     if (unsettled && entering) ++entered_unsettled_;
-    ASSERT_TRUE(compressed_.update(sightings));
-    ASSERT_TRUE(whole_.update(sightings));
+    ASSERT_TRUE(compressed_.update(linearizations));
+    ASSERT_TRUE(whole_.update(linearizations));
   }
 
-  void relax() {
+  void propagate() {
     const int pair = static_cast<int>(wanderer_.random().uniform() * GetParam().error_pairs);
     const double rho = wanderer_.random().uniform();
-    compressed_.relax_errors(pair, rho);
-    whole_.relax_errors(pair, rho);
+    compressed_.propagate_bias(pair, rho);
+    whole_.propagate_bias(pair, rho);
   }
 
   void add() {
@@ -157,13 +157,13 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
   }
 
   double tolerance_ = 1e-9;
-  int entered_unsettled_ = 0;  // updates that brought a landmark in while the last region was being worked on
+  int entered_unsettled_ = 0;  // updates that brought a landmark in while the last submap was being worked on
   CompressedState compressed_;
   State whole_;
   Wanderer wanderer_;
 };
 
-TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManyRegions) {
+TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManySubmaps) {
   // The invariant filter turns the rest of the map to first order only: with innovations of zero nothing is
   // turned.
   const double innovation = GetParam().consistency == Consistency::kInvariant ? 0.0 : 0.05;
@@ -172,7 +172,7 @@ TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManyRegions) {
     if (i % 397 == 0) expect_equal();
     if (HasFailure()) FAIL() << "at step " << i;
   }
-  EXPECT_GT(compressed_.closed_regions(), 10);
+  EXPECT_GT(compressed_.closed_submaps(), 10);
   EXPECT_GT(entered_unsettled_, 10);
   EXPECT_TRUE(is_covariance(compressed_.covariance()));
 }
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// How far the means come apart when all innovations are `scale` times as large.
 double invariant_difference(double scale) {
   Wanderer wanderer(2);
-  CompressedState compressed(2, kCapacity, Consistency::kInvariant, kSmallRegions);
+  CompressedState compressed(2, kCapacity, Consistency::kInvariant, kSmallSubmaps);
   State whole(2, kCapacity, Consistency::kInvariant);
   double difference = 0.0;
   for (int i = 0; i < 600; ++i) {
@@ -201,8 +201,8 @@ double invariant_difference(double scale) {
       compressed.add(position, G, 0.01 * Eigen::Matrix3d::Identity());
       whole.add(position, G, 0.01 * Eigen::Matrix3d::Identity());
     }
-    const auto sightings = wanderer.look(i, whole.landmarks(), scale);
-    EXPECT_TRUE(compressed.update(sightings) && whole.update(sightings));
+    const auto linearizations = wanderer.look(i, whole.landmarks(), scale);
+    EXPECT_TRUE(compressed.update(linearizations) && whole.update(linearizations));
     difference = std::max(difference, (compressed.mean() - whole.mean()).cwiseAbs().maxCoeff());
   }
   return difference;
@@ -215,7 +215,7 @@ TEST(CompressedState, InvariantFilterIsTheSameToFirstOrderInTheInnovations) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.5);  // what is left out is of second order
 }
 
-/// A run over many regions in a map that is mapped first.
+/// A run over many submaps in a map that is mapped first.
 template <class Filter, class Each>
 void wander(Filter& filter, int landmarks, int steps, const Each& each) {
   Wanderer wanderer(2);
@@ -234,9 +234,9 @@ TEST(CompressedState, TwoThreadsGiveTheSameBits) {
   std::vector<Eigen::VectorXd> means;
   std::vector<Eigen::MatrixXd> covariances;
   for (const int threads : {1, 2}) {
-    CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallRegions, threads);
+    CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallSubmaps, threads);
     wander(state, kCapacity, 700, [] {});
-    EXPECT_GT(state.closed_regions(), 10);
+    EXPECT_GT(state.closed_submaps(), 10);
     means.push_back(state.mean());
     covariances.push_back(state.covariance());
   }
@@ -244,24 +244,24 @@ TEST(CompressedState, TwoThreadsGiveTheSameBits) {
   EXPECT_TRUE(covariances[0] == covariances[1]);
 }
 
-TEST(CompressedState, AllocatesNothingEvenWhenRegionsChange) {
+TEST(CompressedState, AllocatesNothingEvenWhenSubmapsChange) {
   for (const int threads : {1, 2}) {
-    CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallRegions, threads);
+    CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallSubmaps, threads);
     Wanderer wanderer(2);
     wander(state, kCapacity, 10, [] {});
-    std::vector<std::vector<Sighting>> scans;
+    std::vector<std::vector<LinearizedObservation>> scans;
     for (int i = 0; i < 500; ++i) scans.push_back(wanderer.look(i, kCapacity));
     const Motion motion = wanderer.move();
-    const int regions = state.closed_regions();
+    const int submaps = state.closed_submaps();
     const test::AllocationCount count;
     for (const auto& scan : scans) {
       state.predict(motion);
-      for (const Sighting& s : scan) (void)state.innovation_covariance(s);
+      for (const LinearizedObservation& s : scan) (void)state.innovation_covariance(s);
       (void)state.landmark(0);
       (void)state.update(scan);
     }
     EXPECT_EQ(count.allocations(), 0);
-    EXPECT_GT(state.closed_regions(), regions + 5);
+    EXPECT_GT(state.closed_submaps(), submaps + 5);
   }
 }
 
@@ -272,13 +272,13 @@ TEST(CompressedState, IsTheWholeStateToTheBitWhereItNeedNotCompress) {
   wander(whole, 100, 50, [] {});
   compressed.remove(17);
   whole.remove(17);
-  EXPECT_EQ(compressed.closed_regions(), 0);
+  EXPECT_EQ(compressed.closed_submaps(), 0);
   EXPECT_EQ(compressed.mean(), whole.mean());
   EXPECT_EQ(compressed.covariance(), whole.covariance());
 }
 
-TEST(CompressedState, MakesTheRegionLargerWhereMoreIsSeenAtOnce) {
-  CompressedState compressed(2, 400, Consistency::kStandard, kSmallRegions);
+TEST(CompressedState, MakesTheSubmapLargerWhereMoreIsSeenAtOnce) {
+  CompressedState compressed(2, 400, Consistency::kStandard, kSmallSubmaps);
   State whole(2, 400, Consistency::kStandard);
   Wanderer wanderer(2);
   for (int i = 0; i < 200; ++i) {
@@ -292,31 +292,31 @@ TEST(CompressedState, MakesTheRegionLargerWhereMoreIsSeenAtOnce) {
     compressed.predict(motion);
     whole.predict(motion);
     for (int block = 0; block < 6; ++block) {  // 192 landmarks in one scan
-      std::vector<Sighting> sightings;
-      for (int i = 0; i < State::kMaxSightings; ++i) {
-        sightings.push_back(wanderer.look(0, 200).front());
-        sightings.back().landmark = block * State::kMaxSightings + i;
+      std::vector<LinearizedObservation> linearizations;
+      for (int i = 0; i < State::kMaxObservations; ++i) {
+        linearizations.push_back(wanderer.look(0, 200).front());
+        linearizations.back().landmark = block * State::kMaxObservations + i;
       }
-      ASSERT_TRUE(compressed.update(sightings));
-      ASSERT_TRUE(whole.update(sightings));
+      ASSERT_TRUE(compressed.update(linearizations));
+      ASSERT_TRUE(whole.update(linearizations));
     }
   }
-  EXPECT_GT(compressed.active_landmarks(), kSmallRegions.region);
+  EXPECT_GT(compressed.active_landmarks(), kSmallSubmaps.submap);
   EXPECT_TRUE(matrix_near(compressed.mean(), whole.mean(), 1e-9));
   EXPECT_TRUE(matrix_near(compressed.covariance(), whole.covariance(), 1e-9));
 }
 
 TEST(CompressedState, RefusesAnInnovationCovarianceThatIsNotPositive) {
-  CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallRegions);
+  CompressedState state(2, kCapacity, Consistency::kInvariant, kSmallSubmaps);
   wander(state, kCapacity, 100, [] {});
   Wanderer wanderer(2);
   const Eigen::VectorXd mean = state.mean();
   const Eigen::MatrixXd covariance = state.covariance();
   for (const double r : {-100.0, std::nan("")}) {
-    Sighting s = wanderer.look(1, kCapacity).front();
+    LinearizedObservation s = wanderer.look(1, kCapacity).front();
     s.R = r * Eigen::Matrix2d::Identity();
     EXPECT_FALSE(state.update({&s, 1}));
-    EXPECT_TRUE(matrix_near(state.mean(), mean, 1e-12));  // the landmark may have come into the region
+    EXPECT_TRUE(matrix_near(state.mean(), mean, 1e-12));  // the landmark may have come into the submap
     EXPECT_TRUE(matrix_near(state.covariance(), covariance, 1e-12));
   }
 }

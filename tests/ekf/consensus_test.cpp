@@ -11,19 +11,19 @@
 namespace waymark::ekf {
 namespace {
 
-constexpr double kSightingGate = 18.42;
-constexpr double kPicture_px2 = 320.0 * 240.0;
+constexpr double kObservationGate = 18.42;
+constexpr double kImage_px2 = 320.0 * 240.0;
 
-/// Sightings with their joint covariance.
-struct Sightings {
+/// Observations with their joint covariance.
+struct Observations {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S;
   std::vector<Eigen::Vector2d> nu;
 };
 
 /// All have one cause in common, of which each coordinate has variance `common_px2`.
-Sightings of_one_cause(double common_px2, double own_px2, const std::vector<Eigen::Vector2d>& nu) {
+Observations of_one_cause(double common_px2, double own_px2, const std::vector<Eigen::Vector2d>& nu) {
   const auto rows = static_cast<Eigen::Index>(2 * nu.size());
-  Sightings all{own_px2 * Eigen::MatrixXd::Identity(rows, rows), nu};
+  Observations all{own_px2 * Eigen::MatrixXd::Identity(rows, rows), nu};
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index j = 0; j < rows; ++j)
       if (i % 2 == j % 2) all.S(i, j) += common_px2;
@@ -31,18 +31,18 @@ Sightings of_one_cause(double common_px2, double own_px2, const std::vector<Eige
 }
 
 /// Those that are well known, and independently of them those that come back.
-Sightings together(const Sightings& known, const Sightings& back) {
+Observations together(const Observations& known, const Observations& back) {
   const Eigen::Index m = known.S.rows(), n = back.S.rows();
-  Sightings all{Eigen::MatrixXd::Zero(m + n, m + n), known.nu};
+  Observations all{Eigen::MatrixXd::Zero(m + n, m + n), known.nu};
   all.S.topLeftCorner(m, m) = known.S;
   all.S.bottomRightCorner(n, n) = back.S;
   all.nu.insert(all.nu.end(), back.nu.begin(), back.nu.end());
   return all;
 }
 
-std::vector<Outcome> judge(const Sightings& sightings) {
-  Consensus consensus(32, kSightingGate, kPicture_px2);
-  const auto outcomes = consensus.judge(sightings.S, sightings.nu);
+std::vector<Outcome> judge(const Observations& linearizations) {
+  Consensus consensus(32, kObservationGate, kImage_px2);
+  const auto outcomes = consensus.judge(linearizations.S, linearizations.nu);
   return {outcomes.begin(), outcomes.end()};
 }
 
@@ -72,7 +72,7 @@ TEST(Consensus, OneOrTwoInAWideSearchSayNothing) {
 }
 
 TEST(Consensus, WhatComesBackNeedsThreeThatSayTheSame) {
-  const Sightings known = of_one_cause(0.5, 0.5, times(4, 0.5));
+  const Observations known = of_one_cause(0.5, 0.5, times(4, 0.5));
   for (const std::size_t count : {1U, 2U, 3U, 4U}) {
     std::vector<Outcome> expected(4, Outcome::kMatched);
     expected.resize(4 + count, count < 3 ? Outcome::kUnusable : Outcome::kMatched);
@@ -81,7 +81,7 @@ TEST(Consensus, WhatComesBackNeedsThreeThatSayTheSame) {
 }
 
 TEST(Consensus, WhatComesBackFromVeryFarMustAgreeMoreThanByChance) {
-  const Sightings known = of_one_cause(0.5, 0.5, times(4, 0.5));
+  const Observations known = of_one_cause(0.5, 0.5, times(4, 0.5));
   const auto back = [&](double own_px2, std::size_t count) {
     return judge(together(known, of_one_cause(2000.0, own_px2, times(count, 60.0)))).back();
   };
@@ -100,7 +100,7 @@ TEST(Consensus, WhoComesBackElsewhereThanTheOthersIsGated) {
 }
 
 TEST(Consensus, RescuesWhatFitsWhereItsPlaceIsKnown) {
-  const Consensus consensus(32, kSightingGate, kPicture_px2);
+  const Consensus consensus(32, kObservationGate, kImage_px2);
   EXPECT_TRUE(consensus.rescues(18.0, 10.0 * Eigen::Matrix2d::Identity()));
   EXPECT_FALSE(consensus.rescues(19.0, 10.0 * Eigen::Matrix2d::Identity()));
   EXPECT_FALSE(consensus.rescues(1.0, 20.0 * Eigen::Matrix2d::Identity()))
@@ -108,8 +108,8 @@ TEST(Consensus, RescuesWhatFitsWhereItsPlaceIsKnown) {
 }
 
 TEST(Consensus, AllocatesNothingOnceItIsMade) {
-  Consensus consensus(32, kSightingGate, kPicture_px2);
-  const Sightings many =
+  Consensus consensus(32, kObservationGate, kImage_px2);
+  const Observations many =
       together(of_one_cause(0.5, 0.5, times(12, 0.5)), of_one_cause(2000.0, 30.0, times(20, 60.0)));
   const test::AllocationCount count;
   static_cast<void>(consensus.judge(many.S, many.nu));

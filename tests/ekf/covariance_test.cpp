@@ -9,7 +9,7 @@
 #include "support/poses.hpp"
 #include "waymark/core/random.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -56,12 +56,12 @@ TEST_F(CovarianceTest, AnswersAsIfTheRobotsRowsWereJoined) {
   Phi.block<2, 1>(0, 2) = phi;
   Eigen::MatrixXd expected = Phi * before_ * Phi.transpose();
   expected.topLeftCorner<3, 3>() = before_.topLeftCorner<3, 3>();  // left to who moves the robot
-  const Eigen::MatrixXd pending = now();
-  EXPECT_TRUE(matrix_near(pending, expected, 1e-14));
-  EXPECT_EQ(P_.join_robot_rows(), phi);
-  EXPECT_EQ(now(), pending);
-  EXPECT_EQ(P_.join_robot_rows(), Eigen::Vector2d(0.0, 0.0));
-  EXPECT_EQ(now(), pending);
+  const Eigen::MatrixXd deferred = now();
+  EXPECT_TRUE(matrix_near(deferred, expected, 1e-14));
+  EXPECT_EQ(P_.propagate_cross_covariance(), phi);
+  EXPECT_EQ(now(), deferred);
+  EXPECT_EQ(P_.propagate_cross_covariance(), Eigen::Vector2d(0.0, 0.0));
+  EXPECT_EQ(now(), deferred);
 }
 
 TEST_F(CovarianceTest, AppendsWhatIsLinear) {

@@ -44,7 +44,7 @@ class OneLandmark : public testing::TestWithParam<Part> {
   [[nodiscard]] Outcome step() {
     const Motion motion{{0.25, 0.0, 0.1}, 1e-6 * Eigen::Matrix3d::Identity()};
     map_.state().predict(motion);
-    map_.table().travel(way_m(motion));
+    map_.table().travel(travelled_m(motion));
     map_.table().begin_scan();
     initialiser_.begin_scan();
     return observe();
@@ -58,7 +58,7 @@ class OneLandmark : public testing::TestWithParam<Part> {
 
   static constexpr LandmarkId kId{LandmarkId::Family::kMarker, 3};
   const Eigen::Vector2d kPlace{2.0, 3.0};
-  ekf::LastingErrors errors_{SensorErrors{}};
+  ekf::SensorBiasStates errors_{SensorErrors{}};
   ekf::PointMap map_{{.capacity = 40}, errors_.pairs(), 1};
   ekf::PointObservation observation_{map_.state(), errors_, Pose2{}};
   ekf::DeferredInitialiser initialiser_{map_, observation_, ekf::Consistency::kInvariant};
@@ -66,7 +66,7 @@ class OneLandmark : public testing::TestWithParam<Part> {
 
 TEST_P(OneLandmark, IsInitialisedWhereItIsOnceItsViewsTell) {
   int steps = 1;
-  while (step() == Outcome::kPending) {
+  while (step() == Outcome::kDeferred) {
     EXPECT_FALSE(map_.table().find(kId));
     ASSERT_LT(++steps, 60);
   }
@@ -78,17 +78,17 @@ TEST_P(OneLandmark, IsInitialisedWhereItIsOnceItsViewsTell) {
 }
 
 TEST_P(OneLandmark, OfAStandingRobotOneViewIsKept) {
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(observe(), Outcome::kPending);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(observe(), Outcome::kDeferred);
   EXPECT_EQ(map_.table().size(), GetParam() == Part::kBearing ? 2 : 1);
   EXPECT_FALSE(map_.table().is_in_map(0));
 }
 
 TEST_P(OneLandmark, ViewpointsStayTheSameWhenLandmarksAreRemoved) {
   map_.append({5.0, 5.0}, 1e-4 * Eigen::Matrix2d::Identity(), {}, {.id = {LandmarkId::Family::kMarker, 99}});
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(step(), Outcome::kPending);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(step(), Outcome::kDeferred);
   map_.remove(0);
   int steps = 0;
-  while (step() == Outcome::kPending) ASSERT_LT(++steps, 60);
+  while (step() == Outcome::kDeferred) ASSERT_LT(++steps, 60);
   EXPECT_LT((map_.state().landmark(0).head<2>() - kPlace).norm(), 0.05);
 }
 
@@ -148,7 +148,7 @@ TEST_P(DeferredInitialisations, NoViewpointIsLeftOnceAllLandmarksAreLocated) {
 TEST_P(DeferredInitialisations, ALandmarkIsPendingUntilItIsAddedOnce) {
   CircleWorld world(4);
   EkfSlam filter = make(world);
-  EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kPending), 8);
+  EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kDeferred), 8);
   int added = 0;
   for (int i = 0; i < 200; ++i) {
     filter.predict(world.move());
@@ -162,7 +162,7 @@ TEST_P(DeferredInitialisations, ARobotThatStandsNeverLocates) {
   CircleWorld world(5);
   EkfSlam filter = make(world);
   for (int i = 0; i < 100; ++i)
-    EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kPending), 8);
+    EXPECT_EQ(filter.correct(part_of(world.look(), part())).count(Outcome::kDeferred), 8);
   EXPECT_LE(filter.state().landmarks(), 2);
 }
 

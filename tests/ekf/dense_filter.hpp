@@ -48,7 +48,7 @@ class DenseFilter {
     linearized_ = x_.head(3);
   }
 
-  void relax_errors(int pair, double rho) {
+  void propagate_bias(int pair, double rho) {
     Matrix F = Matrix::Identity(size(), size());
     F.block(3 + 2 * pair, 3 + 2 * pair, 2, 2) *= Scalar(rho);
     x_ = (F * x_).eval();
@@ -56,14 +56,15 @@ class DenseFilter {
     for (int k = 0; k < 2; ++k) P_(3 + 2 * pair + k, 3 + 2 * pair + k) += 1 - Scalar(rho) * Scalar(rho);
   }
 
-  /// S = H P H^T + R of all sightings together.
-  [[nodiscard]] Eigen::MatrixXd innovation_covariance(std::span<const ekf::Sighting> sightings) const {
-    const auto [H, R, nu] = stack(sightings);
+  /// S = H P H^T + R of all observations together.
+  [[nodiscard]] Eigen::MatrixXd innovation_covariance(
+      std::span<const ekf::LinearizedObservation> linearizations) const {
+    const auto [H, R, nu] = stack(linearizations);
     return (H * P_ * H.transpose() + R).cast<double>();
   }
 
-  void update(std::span<const ekf::Sighting> sightings) {
-    const auto [H, R, nu] = stack(sightings);
+  void update(std::span<const ekf::LinearizedObservation> linearizations) {
+    const auto [H, R, nu] = stack(linearizations);
     const Matrix S = H * P_ * H.transpose() + R;
     const Matrix K = S.llt().solve(H * P_).transpose();
     const Vector dx = K * nu;
@@ -136,12 +137,12 @@ class DenseFilter {
     Matrix H, R;
     Vector nu;
   };
-  [[nodiscard]] Stack stack(std::span<const ekf::Sighting> sightings) const {
+  [[nodiscard]] Stack stack(std::span<const ekf::LinearizedObservation> linearizations) const {
     int rows = 0;
-    for (const auto& s : sightings) rows += s.rows;
+    for (const auto& s : linearizations) rows += s.rows;
     Stack all{Matrix::Zero(rows, size()), Matrix::Zero(rows, rows), Vector(rows)};
     int row = 0;
-    for (const auto& s : sightings) {
+    for (const auto& s : linearizations) {
       auto H = all.H.middleRows(row, s.rows);
       H.leftCols(3) = s.H_pose.topRows(s.rows).cast<Scalar>();
       H.middleCols(place(s.landmark), dimension_) =

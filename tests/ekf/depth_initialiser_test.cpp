@@ -17,23 +17,23 @@ using test::PixelWorld;
 
 const Eigen::Matrix2d kSmallNoise = 0.01 * Eigen::Matrix2d::Identity();
 
-/// A robot that drives past a corner, 2 cm a picture, and weighs it in every one.
+/// A robot that drives past a corner, 2 cm an image, and weighs it in every one.
 struct PassingBy : PixelWorld {
   explicit PassingBy(const PixelSlamOptions& some = {})
       : PixelWorld(some), options(some), initialiser(some, map, prediction) {
-    begin_picture();
+    begin_image();
   }
-  void begin_picture() {
-    map.begin_picture();
-    initialiser.begin_picture();
+  void begin_image() {
+    map.begin_image();
+    initialiser.begin_image();
   }
   [[nodiscard]] Outcome begin(int number) {
     return initialiser.begin(corner_id(number), pixel(corner), kSmallNoise);
   }
   /// False where the pixel is outside of its gate.
-  [[nodiscard]] bool weigh_in_next_picture(double off_px = 0.0) {
+  [[nodiscard]] bool weigh_in_next_image(double off_px = 0.0) {
     move({0.02, 0.0, 0.0}, 1e-4);
-    begin_picture();
+    begin_image();
     return initialiser.weigh(corner_id(1), pixel(corner) + Eigen::Vector2d(off_px, 0.0), kSmallNoise);
   }
 
@@ -46,22 +46,22 @@ TEST(DepthInitialiser, ACandidateThatIsSeenFromElsewhereBecomesARayOfItsDepth) {
   PassingBy world;
   ASSERT_EQ(world.begin(1), Outcome::kAdded);
   EXPECT_TRUE(world.initialiser.knows(corner_id(1)));
-  int pictures = 1;
-  for (; !world.initialiser.is_ready(corner_id(1)); ++pictures) {
-    ASSERT_LT(pictures, world.options.most_pictures);
+  int images = 1;
+  for (; !world.initialiser.is_ready(corner_id(1)); ++images) {
+    ASSERT_LT(images, world.options.max_images);
     const auto expected = world.initialiser.expect();
     ASSERT_EQ(expected.size(), 1U);
     EXPECT_EQ(expected[0].id, corner_id(1));
-    ASSERT_TRUE(world.weigh_in_next_picture());
+    ASSERT_TRUE(world.weigh_in_next_image());
   }
-  EXPECT_GT(pictures, world.options.least_pictures);
+  EXPECT_GT(images, world.options.min_images);
   const auto feature = world.initialiser.accept(corner_id(1));
   ASSERT_TRUE(feature);
   EXPECT_FALSE(world.initialiser.knows(corner_id(1)));
   EXPECT_EQ(world.initialiser.size(), 0);
   const PixelMap& map = world.map.map();
   EXPECT_EQ(map.feature(*feature).id, corner_id(1));
-  EXPECT_EQ(map.feature(*feature).observations, pictures);
+  EXPECT_EQ(map.feature(*feature).observations, images);
   ASSERT_FALSE(map.feature(*feature).is_point());
   EXPECT_EQ(map.state().landmarks(), 2) << "the ray and its anchor";
   const int element = map.feature(*feature).element;
@@ -73,10 +73,10 @@ TEST(DepthInitialiser, ACandidateThatIsSeenFromElsewhereBecomesARayOfItsDepth) {
 TEST(DepthInitialiser, AsInTheArticleItBecomesAPoint) {
   PassingBy world({.init = Initialization::kArticle});
   ASSERT_EQ(world.begin(1), Outcome::kAdded);
-  while (!world.initialiser.is_ready(corner_id(1))) ASSERT_TRUE(world.weigh_in_next_picture());
+  while (!world.initialiser.is_ready(corner_id(1))) ASSERT_TRUE(world.weigh_in_next_image());
   const auto feature = world.initialiser.accept(corner_id(1));
   ASSERT_TRUE(feature);
-  world.begin_picture();
+  world.begin_image();
   const PixelMap& map = world.map.map();
   EXPECT_TRUE(map.feature(*feature).is_point());
   EXPECT_EQ(map.state().landmarks(), 1) << "its anchor has left";
@@ -87,7 +87,7 @@ TEST(DepthInitialiser, FromOnePlaceDepthDoesNotShowAndTheArticleWaitsForIt) {
   for (const auto init : {Initialization::kDelayed, Initialization::kArticle}) {
     PassingBy world({.init = init});
     ASSERT_EQ(world.begin(1), Outcome::kAdded);
-    for (int pictures = 0; pictures < world.options.most_pictures; ++pictures) {
+    for (int images = 0; images < world.options.max_images; ++images) {
       EXPECT_FALSE(world.initialiser.is_ready(corner_id(1)));
       ASSERT_TRUE(world.initialiser.weigh(corner_id(1), world.pixel(world.corner), kSmallNoise));
     }
@@ -98,7 +98,7 @@ TEST(DepthInitialiser, FromOnePlaceDepthDoesNotShowAndTheArticleWaitsForIt) {
 TEST(DepthInitialiser, AWildPixelIsRefusedAndLeavesTheDepthsAlone) {
   PassingBy world;
   ASSERT_EQ(world.begin(1), Outcome::kAdded);
-  ASSERT_TRUE(world.weigh_in_next_picture());
+  ASSERT_TRUE(world.weigh_in_next_image());
   const Expectation before = world.initialiser.expect()[0];
   EXPECT_FALSE(world.initialiser.weigh(corner_id(1), world.pixel(world.corner) + Eigen::Vector2d(0.0, 40.0),
                                        kSmallNoise));
@@ -111,21 +111,21 @@ TEST(DepthInitialiser, WhoIsNotFoundOrTakesTooLongIsGivenUp) {
   for (const bool missed : {true, false}) {
     PassingBy world;
     ASSERT_EQ(world.begin(1), Outcome::kAdded);
-    int pictures = 0;
-    for (; world.initialiser.knows(corner_id(1)); ++pictures) {
-      ASSERT_LE(pictures, 2 * world.options.most_pictures);
+    int images = 0;
+    for (; world.initialiser.knows(corner_id(1)); ++images) {
+      ASSERT_LE(images, 2 * world.options.max_images);
       if (missed) world.initialiser.missed(corner_id(1));
-      world.begin_picture();
+      world.begin_image();
     }
-    EXPECT_EQ(pictures, missed ? 10 : 2 * world.options.most_pictures + 1);
+    EXPECT_EQ(images, missed ? 10 : 2 * world.options.max_images + 1);
     ASSERT_EQ(world.map.removed().size(), 1U);
     EXPECT_EQ(world.map.removed()[0], corner_id(1));
     EXPECT_EQ(world.map.map().state().landmarks(), 0) << "its anchor has left as well";
   }
 }
 
-TEST(DepthInitialiser, CandidatesOfOnePictureShareAnAnchorAndThereAreOnlySoMany) {
-  PassingBy world({.most_candidates = 3});
+TEST(DepthInitialiser, CandidatesOfOneImageShareAnAnchorAndThereAreOnlySoMany) {
+  PassingBy world({.max_candidates = 3});
   for (const int number : {1, 2, 3}) EXPECT_EQ(world.begin(number), Outcome::kAdded);
   EXPECT_EQ(world.map.map().state().landmarks(), 1);
   EXPECT_EQ(world.begin(4), Outcome::kMapFull);
@@ -163,7 +163,7 @@ TEST(DepthInitialiser, AllocatesNothingOnceItIsMade) {
     static_cast<void>(world.initialiser.expect());
     static_cast<void>(world.initialiser.weigh(corner_id(number), world.pixel(world.corner), kSmallNoise));
     ASSERT_TRUE(world.initialiser.accept(corner_id(number)));
-    world.begin_picture();
+    world.begin_image();
   }
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/circle_world.hpp"
-#include "support/unnamed_sightings.hpp"
+#include "support/unknown_identity_observations.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 

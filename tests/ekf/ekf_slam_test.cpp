@@ -37,11 +37,11 @@ TEST(EkfSlam, FollowsTheTruthWithinItsOwnUncertainty) {
     drive(filter, world, 200);
     return filter.pose();
   });
-  EXPECT_GT(nees, test::kLeastMeanNees);
-  EXPECT_LT(nees, test::kMostMeanNees);
+  EXPECT_GT(nees, test::kMinMeanNees);
+  EXPECT_LT(nees, test::kMaxMeanNees);
 }
 
-TEST(EkfSlam, AddsEachLandmarkOnceAndCountsItsSightings) {
+TEST(EkfSlam, AddsEachLandmarkOnceAndCountsItsObservations) {
   CircleWorld world(1);
   EkfSlam filter = make(world);
   EXPECT_EQ(filter.correct(world.look()).count(Outcome::kAdded), 8);
@@ -56,7 +56,7 @@ TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   EkfSlam filter = make(world);
   drive(filter, world, 50);
   const auto before = filter.pose();
-  Observation misread = world.sight(0);
+  Observation misread = world.linearize_view(0);
   misread.id->number = 4;
   const auto& correction = filter.correct({&misread, 1});
   EXPECT_EQ(correction.innovations[0].outcome, Outcome::kGated);
@@ -81,12 +81,12 @@ double plain_log_density(const EkfSlam& filter, const Pose2& mount, int landmark
   return -0.5 * (nu.dot(S.inverse() * nu) + std::log((2.0 * kPi * S).determinant()));
 }
 
-TEST(EkfSlam, TellsHowLikelyASightingWas) {
+TEST(EkfSlam, TellsHowLikelyAnObservationWas) {
   CircleWorld world(4);
   EkfSlam filter({ekf::Consistency::kStandard, 20}, world.sensor());
   drive(filter, world, 30);
   for (const int sighted : {0, 3}) {  // the landmark that it says it is of, and another: gated
-    Observation seen = world.sight(sighted);
+    Observation seen = world.linearize_view(sighted);
     seen.id->number = 0;
     const auto z = std::get<RangeBearing>(seen.value);
     const double both = plain_log_density<RangeBearingModel>(filter, world.mount(), 0, seen, z);
@@ -101,13 +101,13 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
   EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, world.sensor());
   drive(filter, world, 10);
-  std::vector<Observation> scan(6, world.sight(0));
+  std::vector<Observation> scan(6, world.linearize_view(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
   scan[1].id.reset();
   scan[2].value = Pixel{1.0, 2.0};
   scan[3].covariance = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
-  scan.push_back(world.sight(0));
+  scan.push_back(world.linearize_view(0));
   const auto& correction = filter.correct(scan);
   const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable,
                                       Outcome::kUnusable, Outcome::kMatched,      Outcome::kMapFull,
@@ -133,7 +133,7 @@ TEST(EkfSlam, AFullMapGivesItsLeastUsefulLandmarkForANewOne) {
     CircleWorld world(6);
     EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, world.sensor());
     drive(filter, world, 20);
-    Observation unseen = world.sight(3);
+    Observation unseen = world.linearize_view(3);
     unseen.id->number = 99;
     const auto& correction = filter.correct({&unseen, 1});
     EXPECT_EQ(correction.innovations[0].outcome, Outcome::kAdded);
@@ -162,9 +162,9 @@ TEST(EkfSlam, AScanOfMoreNewLandmarksThanFitKeepsTheFirstOfThem) {
 TEST(EkfSlam, CompressedItEstimatesTheSame) {
   EkfSlam whole({.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kNever}, {});
   EkfSlam compressed(
-      {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .region = 48},
+      {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .submap = 48},
       {});
-  const auto sight = [](int landmark, double range_m) {
+  const auto linearize_view = [](int landmark, double range_m) {
     return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
                        RangeBearing{range_m, 0.04 * landmark},
                        Eigen::Matrix2d(1e-3 * Eigen::Matrix2d::Identity())};
@@ -174,7 +174,7 @@ TEST(EkfSlam, CompressedItEstimatesTheSame) {
     std::vector<Observation> scan;
     for (int i = 0; i < 10; ++i) {
       const int landmark = (4 * step + i) % 150;
-      scan.push_back(sight(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
+      scan.push_back(linearize_view(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
     }
     for (EkfSlam* filter : {&whole, &compressed}) {
       filter->predict({{0.0, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
@@ -182,7 +182,7 @@ TEST(EkfSlam, CompressedItEstimatesTheSame) {
       EXPECT_EQ(correction.count(Outcome::kMatched) + correction.count(Outcome::kAdded), 10) << step;
     }
   }
-  EXPECT_GT(compressed.state().closed_regions(), 5);
+  EXPECT_GT(compressed.state().closed_submaps(), 5);
   const MapState a = whole.save();
   const MapState b = compressed.save();
   EXPECT_EQ(a.ids, b.ids);
@@ -225,11 +225,11 @@ class LargeInnovation : public testing::Test {
     options.gate = {1.0};
     EkfSlam filter(options, {});
     std::vector<Observation> first;
-    for (int i = 0; i < kLandmarks; ++i) first.push_back(sight(i, {}, 1e-4));
+    for (int i = 0; i < kLandmarks; ++i) first.push_back(linearize_view(i, {}, 1e-4));
     filter.correct(first);
     filter.predict({{}, prior().asDiagonal()});
     std::vector<Observation> then;
-    for (int i = 0; i < kLandmarks; ++i) then.push_back(sight(i, truth(), kSigma));
+    for (int i = 0; i < kLandmarks; ++i) then.push_back(linearize_view(i, truth(), kSigma));
     filter.correct(then);
     return filter.pose().T_world_robot;
   }
@@ -239,15 +239,15 @@ class LargeInnovation : public testing::Test {
     const Eigen::Vector3d e = difference(pose, Pose2{});
     double cost = e.dot(e.cwiseQuotient(prior()));
     for (int i = 0; i < kLandmarks; ++i) {
-      const auto z = std::get<RangeBearing>(sight(i, truth(), kSigma).value);
-      const auto h = std::get<RangeBearing>(sight(i, pose, kSigma).value);
+      const auto z = std::get<RangeBearing>(linearize_view(i, truth(), kSigma).value);
+      const auto h = std::get<RangeBearing>(linearize_view(i, pose, kSigma).value);
       cost += (std::pow(z.range_m - h.range_m, 2) + std::pow(wrap_angle(z.bearing_rad - h.bearing_rad), 2)) /
               (kSigma * kSigma);
     }
     return cost;
   }
 
-  [[nodiscard]] static Observation sight(int number, const Pose2& pose, double sigma) {
+  [[nodiscard]] static Observation linearize_view(int number, const Pose2& pose, double sigma) {
     const Eigen::Vector2d places[kLandmarks] = {{3.0, 1.0}, {2.0, -2.0}, {-1.0, 3.0}};
     const Eigen::Vector2d p = pose.inverse() * places[number];
     Observation observation{LandmarkId{LandmarkId::Family::kMarker, number},
@@ -318,32 +318,32 @@ TEST(EkfSlam, FindsItselfAgainAfterASlipThatItsOdometryDidNotSee) {
   CircleWorld world(5);
   EkfSlam filter = make(world);
   drive(filter, world, 100);
-  world.move();  // of which the filter is not told
+  world.move();  // of which the filter is not observable
   for (int i = 0; i < 20; ++i) world.move();
   drive(filter, world, 30);
-  EXPECT_GT(filter.slips(), 0);
+  EXPECT_GT(filter.recoveries(), 0);
   const auto pose = filter.pose();
   EXPECT_LT(*mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance),
             chi2_quantile(0.9999, 3));
 }
 
-TEST(EkfSlam, KnowsRepeatedSightingsWithALastingErrorForWhatTheyAre) {
-  // One landmark, watched from the same place: its error stays, so that after a hundred sightings it is as
+TEST(EkfSlam, KnowsRepeatedObservationsWithABiasForWhatTheyAre) {
+  // One landmark, watched from the same place: its error stays, so that after a hundred observations it is as
   // unsure as after one, while the innovations show how alike they are.
-  const SensorErrors errors{.lasting_range_sigma_ratio = 0.02, .lasting_bearing_sigma_deg = 1.0};
+  const SensorErrors errors{.bias_range_sigma_ratio = 0.02, .bias_bearing_sigma_deg = 1.0};
   RandomStream random(11, StreamPurpose::kWorld);
   EkfSlam filter({}, {.errors = errors});
   double nis = 0.0;
-  constexpr int kSightings = 100;
+  constexpr int kObservations = 100;
   Observation observation{LandmarkId{LandmarkId::Family::kMarker, 1}, RangeBearing{}, {}};
   observation.covariance = Eigen::Vector2d(0.03 * 0.03, 0.005 * 0.005).asDiagonal();
-  for (int i = 0; i < kSightings; ++i) {
+  for (int i = 0; i < kObservations; ++i) {
     observation.value = RangeBearing{5.0 + 0.03 * random.normal(), 0.5 + 0.005 * random.normal()};
-    nis += filter.correct({&observation, 1}).innovations[0].nis / (2.0 * kSightings);
+    nis += filter.correct({&observation, 1}).innovations[0].nis / (2.0 * kObservations);
   }
   const Eigen::Matrix3d P = filter.snapshot().landmarks[0].covariance;
-  const double lasting = 0.1 * 0.1 + std::pow(5.0 * to_radians(1.0), 2);
-  EXPECT_NEAR(P.trace(), lasting, 0.05 * lasting);
+  const double bias = 0.1 * 0.1 + std::pow(5.0 * to_radians(1.0), 2);
+  EXPECT_NEAR(P.trace(), bias, 0.05 * bias);
   EXPECT_NEAR(nis, 1.0, 0.33) << "beyond the 99.9 % band of a mean of 200 chi-square variables";
 }
 
@@ -369,7 +369,7 @@ TEST(EkfSlam, GoesOnFromASavedMapAsIfItHadNeverStopped) {
   EXPECT_EQ(again.save().covariance, filter.save().covariance);
 }
 
-TEST(EkfSlam, ALoadedMapIsTheFirstRegionHoweverSmallRegionsAre) {
+TEST(EkfSlam, ALoadedMapIsTheFirstSubmapHoweverSmallSubmapsAre) {
   MapState map;
   constexpr int kCount = 300;
   for (int i = 0; i < kCount; ++i) map.ids.push_back({LandmarkId::Family::kMarker, i});
@@ -377,13 +377,13 @@ TEST(EkfSlam, ALoadedMapIsTheFirstRegionHoweverSmallRegionsAre) {
   map.landmarks = Eigen::VectorXd::LinSpaced(2 * kCount, -30.0, 30.0);
   map.covariance = 0.01 * Eigen::MatrixXd::Identity(3 + 2 * kCount, 3 + 2 * kCount);
   map.covariance.array() += 0.002;
-  EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .region = 48, .loaded = kCount}, {});
+  EkfSlam filter({.capacity = 1000, .compressed = Compress::kAlways, .submap = 48, .loaded = kCount}, {});
   ASSERT_TRUE(filter.load(map));
   EXPECT_EQ(filter.save().covariance, map.covariance);
   const Observation unknown{LandmarkId{LandmarkId::Family::kMarker, 999}, RangeBearing{2.0, 0.1},
                             Eigen::Matrix2d(0.01 * Eigen::Matrix2d::Identity())};
   EXPECT_EQ(filter.correct({&unknown, 1}).count(Outcome::kAdded), 1);
-  EXPECT_GE(filter.state().closed_regions(), 1);
+  EXPECT_GE(filter.state().closed_submaps(), 1);
   const Eigen::MatrixXd known = filter.save().covariance.topLeftCorner(3 + 2 * kCount, 3 + 2 * kCount);
   EXPECT_LT((known - map.covariance).cwiseAbs().maxCoeff(), 1e-12);
 }
@@ -397,7 +397,7 @@ TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
   ASSERT_TRUE(filter.load(saved));
   filter.hold_landmarks();
   drive(filter, world, 100);
-  Observation unknown = world.sight(0);
+  Observation unknown = world.linearize_view(0);
   unknown.id->number = 99;
   EXPECT_EQ(filter.correct({&unknown, 1}).count(Outcome::kNotInMap), 1);
   const MapState after = filter.save();

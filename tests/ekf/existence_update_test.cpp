@@ -26,7 +26,7 @@ class ThreeTentativeLandmarks : public testing::Test {
 
   LandmarkSensor sensor_{.max_range_m = 10.0, .field_of_view_deg = 180.0, .detection_probability = 0.9};
   AssociationModel model_{{.confirmed_log_odds = 6.0}, sensor_};
-  LastingErrors errors_{SensorErrors{}};
+  SensorBiasStates errors_{SensorErrors{}};
   PointMap map_{{.capacity = 8}, errors_.pairs(), 1};
   PointObservation observation_{map_.state(), errors_, Pose2{}};
   NearbyLandmarks nearby_{10.0};
@@ -59,13 +59,13 @@ TEST_F(ThreeTentativeLandmarks, WhatIsCertainIsNotMissed) {
   EXPECT_TRUE(existence(0).is_certain());
 }
 
-TEST_F(ThreeTentativeLandmarks, GhostsAndStaleOnesGo) {
+TEST_F(ThreeTentativeLandmarks, FalseTracksAndStaleOnesGo) {
   scan({});
-  remove_ghosts(map_);
+  remove_false_tracks(map_);
   ASSERT_EQ(map_.table().size(), 2);
-  map_.table().travel(2.0 * kTentativeWay_m);
+  map_.table().travel(2.0 * kTentativeDistance_m);
   map_.table().existence(1).confirm();
-  remove_ghosts(map_);
+  remove_false_tracks(map_);
   EXPECT_EQ(map_.table().size(), 1);
   EXPECT_TRUE(map_.table().is_in_map(0));
 }

@@ -25,10 +25,12 @@ struct UnsureRay : PixelWorld {
     move({0.8, -0.3, 0.1}, 1e-3);
     found = find(ray, kSeen);
   }
-  [[nodiscard]] Sighting sighting() const { return *prediction.linearize(map.map(), found, here()); }
+  [[nodiscard]] LinearizedObservation linearization() const {
+    return *prediction.linearize(map.map(), found, here());
+  }
   [[nodiscard]] bool update() {
     IteratedPixelUpdate iterated(options, prediction);
-    iterated.add(found, sighting());
+    iterated.add(found, linearization());
     return iterated.apply(map.map());
   }
 
@@ -40,12 +42,12 @@ struct UnsureRay : PixelWorld {
 TEST(IteratedPixelUpdate, LandsWhereThePixelIs) {
   UnsureRay iterated;
   UnsureRay once({.init = Initialization::kArticle});
-  const double before_px = iterated.sighting().nu.norm();
+  const double before_px = iterated.linearization().nu.norm();
   ASSERT_TRUE(iterated.update());
   ASSERT_TRUE(once.update());
   EXPECT_GT(before_px, 10.0);
-  EXPECT_LT(iterated.sighting().nu.norm(), 0.5);
-  EXPECT_LT(iterated.sighting().nu.norm(), 0.5 * once.sighting().nu.norm());
+  EXPECT_LT(iterated.linearization().nu.norm(), 0.5);
+  EXPECT_LT(iterated.linearization().nu.norm(), 0.5 * once.linearization().nu.norm());
   const auto distance = [](const UnsureRay& world) {
     return (world.prediction.place(world.map.map(), world.ray) - kSeen).norm();
   };
@@ -58,8 +60,8 @@ TEST(IteratedPixelUpdate, IsTheStatesOwnWhereTheArticleIsFollowedAndWithFirstEst
     UnsureRay world(options);
     UnsureRay plain(options);
     ASSERT_TRUE(world.update());
-    const Sighting sighting = plain.sighting();
-    ASSERT_TRUE(plain.map.map().state().update({&sighting, 1}));
+    const LinearizedObservation linearization = plain.linearization();
+    ASSERT_TRUE(plain.map.map().state().update({&linearization, 1}));
     EXPECT_EQ(world.map.map().state().mean(), plain.map.map().state().mean());
     EXPECT_EQ(world.map.map().state().covariance(), plain.map.map().state().covariance());
   }
@@ -72,11 +74,12 @@ TEST(IteratedPixelUpdate, WhatIsAsGoodAsLinearIsNotLinearisedAnew) {
     each->move({0.1, 0.0, 0.0}, 1e-3);
   }
   const FoundPixel found = world.find(0, kSeen);
-  const Sighting sighting = *world.prediction.linearize(world.map.map(), found, world.here());
+  const LinearizedObservation linearization =
+      *world.prediction.linearize(world.map.map(), found, world.here());
   IteratedPixelUpdate update({}, world.prediction);
-  update.add(found, sighting);
+  update.add(found, linearization);
   ASSERT_TRUE(update.apply(world.map.map()));
-  ASSERT_TRUE(plain.map.map().state().update({&sighting, 1}));
+  ASSERT_TRUE(plain.map.map().state().update({&linearization, 1}));
   EXPECT_EQ(world.map.map().state().mean(), plain.map.map().state().mean());
 }
 
@@ -85,10 +88,10 @@ TEST(IteratedPixelUpdate, WithoutPixelsOrWithImpossibleOnesNothingChanges) {
   const Eigen::VectorXd before = world.map.map().state().mean();
   IteratedPixelUpdate update(world.options, world.prediction);
   EXPECT_TRUE(update.apply(world.map.map()));
-  update.add(world.found, world.sighting());
+  update.add(world.found, world.linearization());
   update.clear();
   EXPECT_TRUE(update.apply(world.map.map()));
-  Sighting impossible = world.sighting();
+  LinearizedObservation impossible = world.linearization();
   impossible.R.setConstant(std::numeric_limits<double>::quiet_NaN());
   update.add(world.found, impossible);
   EXPECT_FALSE(update.apply(world.map.map()));
@@ -97,10 +100,10 @@ TEST(IteratedPixelUpdate, WithoutPixelsOrWithImpossibleOnesNothingChanges) {
 
 TEST(IteratedPixelUpdate, AllocatesNothingOnceItIsMade) {
   UnsureRay world;
-  const Sighting sighting = world.sighting();
+  const LinearizedObservation linearization = world.linearization();
   IteratedPixelUpdate update(world.options, world.prediction);
   const test::AllocationCount count;
-  update.add(world.found, sighting);
+  update.add(world.found, linearization);
   EXPECT_TRUE(update.apply(world.map.map()));
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -28,25 +28,27 @@ class AbeamOfALandmark {
     state_.add({0.0, 1.0, 0.0}, Eigen::Matrix3d::Zero(), noise);
   }
 
-  [[nodiscard]] static Sighting linearize(double x_m, double z_m) {
-    Sighting sighting;
+  [[nodiscard]] static LinearizedObservation linearize(double x_m, double z_m) {
+    LinearizedObservation linearization;
     const double h = std::hypot(x_m, 1.0);
-    sighting.rows = 1;
-    sighting.nu[0] = z_m - h;
-    sighting.H_pose(0, 0) = x_m / h;
-    sighting.H_pose(0, 1) = -1.0 / h;
-    sighting.H_landmark.row(0) = -sighting.H_pose.row(0).leftCols<3>();
-    sighting.R = Eigen::Vector2d(kSigma_m * kSigma_m, 1.0).asDiagonal();
-    return sighting;
+    linearization.rows = 1;
+    linearization.nu[0] = z_m - h;
+    linearization.H_pose(0, 0) = x_m / h;
+    linearization.H_pose(0, 1) = -1.0 / h;
+    linearization.H_landmark.row(0) = -linearization.H_pose.row(0).leftCols<3>();
+    linearization.R = Eigen::Vector2d(kSigma_m * kSigma_m, 1.0).asDiagonal();
+    return linearization;
   }
 
   /// Whether the distance z was used.
   [[nodiscard]] bool update(IteratedUpdate& iterated, double z_m = kRange_m) {
-    const std::vector<Sighting> block{linearize(x_m(), z_m)};
-    return iterated.apply(state_, block, [&](std::size_t, const Sighting&) -> std::optional<Sighting> {
-      ++linearised_;
-      return linearize(state_.proposed_pose().x_m, z_m);
-    });
+    const std::vector<LinearizedObservation> block{linearize(x_m(), z_m)};
+    return iterated.apply(
+        state_, block,
+        [&](std::size_t, const LinearizedObservation&) -> std::optional<LinearizedObservation> {
+          ++linearised_;
+          return linearize(state_.proposed_pose().x_m, z_m);
+        });
   }
   [[nodiscard]] double x_m() const { return state_.pose().T_world_robot.x_m; }
   /// How often the distance was linearised anew.
@@ -67,7 +69,7 @@ TEST(IteratedUpdate, WithoutIterationsItIsTheUpdateOfTheState) {
   auto plain = abeam();
   IteratedUpdate once(0, Likelihood::kGaussian, Consistency::kStandard);
   ASSERT_TRUE(robot.update(once));
-  const std::vector<Sighting> block{plain.linearize(plain.x_m(), kRange_m)};
+  const std::vector<LinearizedObservation> block{plain.linearize(plain.x_m(), kRange_m)};
   ASSERT_TRUE(plain.state().update(block));
   EXPECT_EQ(robot.linearised(), 0);
   EXPECT_EQ(robot.state().mean(), plain.state().mean());
@@ -120,9 +122,10 @@ TEST(IteratedUpdate, WhereNothingCanBeSeenTheLastStepCounts) {
   auto robot = abeam();
   auto once = abeam();
   IteratedUpdate iterated(20, Likelihood::kGaussian, Consistency::kStandard);
-  const std::vector<Sighting> block{robot.linearize(robot.x_m(), kRange_m)};
-  ASSERT_TRUE(iterated.apply(robot.state(), block,
-                             [](std::size_t, const Sighting&) -> std::optional<Sighting> { return {}; }));
+  const std::vector<LinearizedObservation> block{robot.linearize(robot.x_m(), kRange_m)};
+  ASSERT_TRUE(iterated.apply(
+      robot.state(), block,
+      [](std::size_t, const LinearizedObservation&) -> std::optional<LinearizedObservation> { return {}; }));
   ASSERT_TRUE(once.state().update(block));
   EXPECT_EQ(robot.x_m(), once.x_m());
 }
@@ -130,20 +133,21 @@ TEST(IteratedUpdate, WhereNothingCanBeSeenTheLastStepCounts) {
 TEST(IteratedUpdate, AnImpossibleCovarianceChangesNothing) {
   auto robot = abeam();
   IteratedUpdate iterated(3, Likelihood::kGaussian, Consistency::kStandard);
-  std::vector<Sighting> block{robot.linearize(robot.x_m(), kRange_m)};
+  std::vector<LinearizedObservation> block{robot.linearize(robot.x_m(), kRange_m)};
   block[0].R(0, 0) = -10.0;
   const Eigen::MatrixXd before = robot.state().covariance();
-  EXPECT_FALSE(iterated.apply(robot.state(), block,
-                              [](std::size_t, const Sighting& sighting) { return std::optional(sighting); }));
+  EXPECT_FALSE(iterated.apply(
+      robot.state(), block,
+      [](std::size_t, const LinearizedObservation& linearization) { return std::optional(linearization); }));
   EXPECT_EQ(robot.state().covariance(), before);
 }
 
 TEST(IteratedUpdate, AllocatesNothing) {
   auto robot = abeam();
   IteratedUpdate iterated(20, Likelihood::kStudent, Consistency::kStandard);
-  const std::vector<Sighting> block{robot.linearize(robot.x_m(), kRange_m)};
+  const std::vector<LinearizedObservation> block{robot.linearize(robot.x_m(), kRange_m)};
   const test::AllocationCount count;
-  EXPECT_TRUE(iterated.apply(robot.state(), block, [&](std::size_t, const Sighting&) {
+  EXPECT_TRUE(iterated.apply(robot.state(), block, [&](std::size_t, const LinearizedObservation&) {
     return std::optional(robot.linearize(robot.state().proposed_pose().x_m, kRange_m));
   }));
   EXPECT_EQ(count.allocations(), 0);

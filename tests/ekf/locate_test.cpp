@@ -26,9 +26,9 @@ struct Ranges {
       ranges_m.push_back((p_world - place).norm() + kSigma_m * random.normal());
   }
 
-  [[nodiscard]] std::optional<ViewsOfOne> operator()(const Eigen::Vector2d& p_world) const {
+  [[nodiscard]] std::optional<LinearizedViews> operator()(const Eigen::Vector2d& p_world) const {
     const auto m = std::ssize(places);
-    ViewsOfOne views{Eigen::VectorXd(m), {m, 2}, kSigma_m * kSigma_m * Eigen::MatrixXd::Identity(m, m)};
+    LinearizedViews views{Eigen::VectorXd(m), {m, 2}, kSigma_m * kSigma_m * Eigen::MatrixXd::Identity(m, m)};
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Eigen::Vector2d d = p_world - places[k];

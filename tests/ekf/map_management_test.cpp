@@ -8,21 +8,22 @@
 namespace waymark::ekf {
 namespace {
 
-/// A sighting of a landmark that is known to `landmark_sigma_m`, from a pose known to about `pose_scale`.
-PoseSighting make_sighting(RandomStream& random, double pose_scale = 0.1, double landmark_sigma_m = 0.1) {
-  PoseSighting sighting;
-  sighting.P_pose = test::random_covariance<3>(random, pose_scale);
-  for (auto& entry : sighting.H_pose.reshaped()) entry = random.normal();
-  sighting.C_pose = sighting.P_pose * sighting.H_pose.transpose();
-  sighting.S = sighting.H_pose * sighting.C_pose +
-               (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
-  return sighting;
+/// An observation of a landmark that is known to `landmark_sigma_m`, from a pose known to about `pose_scale`.
+PoseObservation make_observation(RandomStream& random, double pose_scale = 0.1,
+                                 double landmark_sigma_m = 0.1) {
+  PoseObservation linearization;
+  linearization.P_pose = test::random_covariance<3>(random, pose_scale);
+  for (auto& entry : linearization.H_pose.reshaped()) entry = random.normal();
+  linearization.C_pose = linearization.P_pose * linearization.H_pose.transpose();
+  linearization.S = linearization.H_pose * linearization.C_pose +
+                    (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
+  return linearization;
 }
 
 TEST(InformationGain, IsTheLogRatioOfTheDeterminantsOfThePoseCovariance) {
   RandomStream random(1, StreamPurpose::kWorld);
   for (int i = 0; i < 100; ++i) {
-    const PoseSighting s = make_sighting(random);
+    const PoseObservation s = make_observation(random);
     const Eigen::Matrix3d after = s.P_pose - s.C_pose * s.S.inverse() * s.C_pose.transpose();
     EXPECT_NEAR(information_gain(s), 0.5 * std::log(s.P_pose.determinant() / after.determinant()), 1e-6);
   }
@@ -30,10 +31,10 @@ TEST(InformationGain, IsTheLogRatioOfTheDeterminantsOfThePoseCovariance) {
 
 TEST(InformationGain, IsZeroWhereNothingCanBeLearned) {
   RandomStream random(2, StreamPurpose::kWorld);
-  PoseSighting s = make_sighting(random);
+  PoseObservation s = make_observation(random);
   s.C_pose.setZero();
   EXPECT_EQ(information_gain(s), 0.0);
-  s = make_sighting(random);
+  s = make_observation(random);
   s.P_pose.setZero();
   s.C_pose.setZero();
   EXPECT_EQ(information_gain(s), 0.0);
@@ -44,14 +45,14 @@ TEST(InformationGain, IsZeroWhereNothingCanBeLearned) {
 TEST(InformationGain, GrowsWithHowWellTheLandmarkIsKnown) {
   RandomStream random(3, StreamPurpose::kWorld);
   RandomStream same(3, StreamPurpose::kWorld);
-  EXPECT_GT(information_gain(make_sighting(random, 0.1, 0.01)),
-            information_gain(make_sighting(same, 0.1, 1.0)));
+  EXPECT_GT(information_gain(make_observation(random, 0.1, 0.01)),
+            information_gain(make_observation(same, 0.1, 1.0)));
 }
 
 TEST(ArticleScore, IsTheTraceOfTheRobotBlock) {
   RandomStream random(4, StreamPurpose::kWorld);
   for (int i = 0; i < 20; ++i) {
-    const PoseSighting s = make_sighting(random);
+    const PoseObservation s = make_observation(random);
     const Eigen::Matrix3d I_KH = Eigen::Matrix3d::Identity() - s.C_pose * s.S.inverse() * s.H_pose;
     EXPECT_NEAR(article_score(s), I_KH.trace(), 1e-12);
   }
@@ -66,7 +67,7 @@ TEST_P(BothScores, EvictTheLandmarkThatTellsLeast) {
   for (int i = 0; i < 3; ++i) management.added();
   for (int i = 0; i < 3; ++i) {
     RandomStream same = random;
-    management.matched(i, make_sighting(same, 0.1, i == 1 ? 3.0 : 0.05));
+    management.matched(i, make_observation(same, 0.1, i == 1 ? 3.0 : 0.05));
   }
   EXPECT_FALSE(management.least_useful()) << "all were seen in this scan";
   management.begin_scan();
@@ -77,10 +78,10 @@ INSTANTIATE_TEST_SUITE_P(Evictions, BothScores, testing::Values(Eviction::kInfor
 
 TEST(MapManagement, ALandmarkThatIsOftenOutsideItsGateCountsLess) {
   RandomStream random(6, StreamPurpose::kWorld);
-  const PoseSighting sighting = make_sighting(random);
+  const PoseObservation linearization = make_observation(random);
   MapManagement management(Eviction::kInformation, 2);
   for (int i = 0; i < 2; ++i) management.added();
-  for (int i = 0; i < 2; ++i) management.matched(i, sighting);
+  for (int i = 0; i < 2; ++i) management.matched(i, linearization);
   management.missed(1);
   management.begin_scan();
   EXPECT_EQ(management.least_useful(), 1);
@@ -90,7 +91,7 @@ TEST(MapManagement, FollowsTheIndicesOfTheState) {
   RandomStream random(7, StreamPurpose::kWorld);
   MapManagement management(Eviction::kInformation, 3);
   for (int i = 0; i < 3; ++i) management.added();
-  management.matched(1, make_sighting(random));
+  management.matched(1, make_observation(random));
   management.removed(0);  // landmark 2, never matched again, is now 0
   management.begin_scan();
   EXPECT_EQ(management.least_useful(), 0);

@@ -69,7 +69,7 @@ TEST(OdometryStates, ARobotThatOnlyStandsLearnsNothing) {
   EXPECT_TRUE(matrix_near(learnt->mean.head<3>(), Eigen::Vector3d::Zero(), 1e-15));
   EXPECT_TRUE(matrix_near(learnt->sigmas.head<3>(), prior, 1e-12));
   for (const CalibrationIndex index : {kSpeedScale, kTurnScale, kTurnBias})
-    EXPECT_TRUE(learnt->is_untold(index));
+    EXPECT_TRUE(learnt->is_unobservable(index));
 }
 
 TEST(OdometryStates, AreOffUnlessAskedFor) {

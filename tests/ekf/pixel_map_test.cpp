@@ -83,13 +83,15 @@ class Model {
     Eigen::Vector3d values;
     Eigen::Matrix3d covariance;
   };
-  struct Anchor {
+  struct AnchorPose {
     Pose2 pose;
     int held = 0;  ///< by this model: rays hold it besides
   };
 
-  [[nodiscard]] const std::optional<Anchor>& at(int a) const { return anchors_[static_cast<std::size_t>(a)]; }
-  [[nodiscard]] std::optional<Anchor>& at(int a) { return anchors_[static_cast<std::size_t>(a)]; }
+  [[nodiscard]] const std::optional<AnchorPose>& at(int a) const {
+    return anchors_[static_cast<std::size_t>(a)];
+  }
+  [[nodiscard]] std::optional<AnchorPose>& at(int a) { return anchors_[static_cast<std::size_t>(a)]; }
 
   void expect_equal(int index, const Feature& expected) const {
     const PixelMap::Feature& feature = map_.feature(index);
@@ -181,7 +183,7 @@ class Model {
   Camera camera_;
   PixelMap map_;
   std::vector<Feature> features_;
-  std::vector<std::optional<Anchor>> anchors_;
+  std::vector<std::optional<AnchorPose>> anchors_;
   int next_ = 0;
 };
 
@@ -227,7 +229,7 @@ void add_three_rays(PixelMap& map, RandomStream& random) {
                   errors);
     }
   }
-  map.state().relax_errors(0, 0.5);
+  map.state().propagate_bias(0, 0.5);
   map.state().predict(random_step(random));
 }
 

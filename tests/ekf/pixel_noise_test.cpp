@@ -30,7 +30,7 @@ TEST(PixelNoise, OfASearchIsThatOfAWholePixelAndThatOfTheModel) {
 }
 
 TEST(PixelNoise, AVibrationTurnsTheCameraAboutItsXAndItsZAxis) {
-  const PixelNoise noise({.vibration_deg = 0.3});
+  const PixelNoise noise({.jitter_deg = 0.3});
   const Camera camera({.distortion = {.k1 = -0.1}});
   const Eigen::Vector3d p_camera(0.4, -0.3, 2.0);
   const auto image = [&](const Eigen::Vector2d& deviations) -> Eigen::Vector2d {
@@ -40,39 +40,39 @@ TEST(PixelNoise, AVibrationTurnsTheCameraAboutItsXAndItsZAxis) {
                                   .toRotationMatrix();
     return camera.project(R * p_camera)->pixel;
   };
-  const ErrorTerms terms = noise.vibration(p_camera, camera.project(p_camera)->dpixel_dpoint);
+  const ErrorTerms terms = noise.attitude_jitter(p_camera, camera.project(p_camera)->dpixel_dpoint);
   EXPECT_EQ(terms[0].pair, 0);
   EXPECT_FALSE(terms[1].takes_part());
   const Eigen::Vector2d none = Eigen::Vector2d::Zero();
   EXPECT_TRUE(matrix_near(terms[0].J.topRows<2>(), test::numeric_jacobian(image, none, 1e-4), 1e-7));
 }
 
-TEST(PixelNoise, APictureForgetsTheVibrationOfTheLastOne) {
-  const PixelNoise noise({.vibration_deg = 0.3});
+TEST(PixelNoise, AnImageForgetsTheVibrationOfTheLastOne) {
+  const PixelNoise noise({.jitter_deg = 0.3});
   ASSERT_TRUE(noise.vibrates());
   State state(3, 1, Consistency::kInvariant, 1, 1);
-  noise.begin_picture(state);
+  noise.begin_image(state);
   EXPECT_EQ(state.errors_covariance(0, 0), Eigen::Matrix2d::Identity());
 }
 
 TEST(PixelNoise, ACameraThatIsStillHasNoErrors) {
-  const PixelNoise noise({.vibration_deg = 0.0});
+  const PixelNoise noise({.jitter_deg = 0.0});
   EXPECT_FALSE(noise.vibrates());
   State state(3, 1, Consistency::kInvariant);
-  noise.begin_picture(state);
-  EXPECT_FALSE(noise.vibration({0.1, 0.2, 1.0}, Eigen::Matrix<double, 2, 3>::Ones())[0].takes_part());
+  noise.begin_image(state);
+  EXPECT_FALSE(noise.attitude_jitter({0.1, 0.2, 1.0}, Eigen::Matrix<double, 2, 3>::Ones())[0].takes_part());
 }
 
 TEST(PixelNoise, APatchWandersWithTheRootOfTheAngleBetweenTwoViews) {
-  const PixelNoise noise({.wander_px = 0.2});
+  const PixelNoise noise({.landmark_noise_px = 0.2});
   const Eigen::Vector3d p(3.0, 1.0, 0.5);
   const auto from = [&](double angle_deg, double distance_m) -> Eigen::Vector3d {
     return p + Eigen::AngleAxisd(to_radians(angle_deg), Eigen::Vector3d::UnitZ()) *
                    Eigen::Vector3d(-distance_m, 0.0, 0.0);
   };
-  EXPECT_NEAR(noise.wandered_px2(p, from(0.0, 2.0), from(1.0, 2.0)), 0.04, 1e-12);
-  EXPECT_NEAR(noise.wandered_px2(p, from(-10.0, 2.0), from(15.0, 1.0)), 25.0 * 0.04, 1e-10);
-  EXPECT_NEAR(noise.wandered_px2(p, from(5.0, 2.0), from(5.0, 1.0)), 0.0, 1e-12) << "straight ahead";
+  EXPECT_NEAR(noise.process_noise_px2(p, from(0.0, 2.0), from(1.0, 2.0)), 0.04, 1e-12);
+  EXPECT_NEAR(noise.process_noise_px2(p, from(-10.0, 2.0), from(15.0, 1.0)), 25.0 * 0.04, 1e-10);
+  EXPECT_NEAR(noise.process_noise_px2(p, from(5.0, 2.0), from(5.0, 1.0)), 0.0, 1e-12) << "straight ahead";
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(PixelPrediction, LinearizesAPointAndARayAtThePresentEstimate) {
   ASSERT_TRUE(of_point && h);
   EXPECT_EQ(of_point->landmark, map.feature(0).element);
   EXPECT_EQ(of_point->anchor, -1);
-  EXPECT_EQ(of_point->nu, point.z_px - h->predicted);  // the vibration of a new picture is expected to be 0
+  EXPECT_EQ(of_point->nu, point.z_px - h->predicted);  // the vibration of a new image is expected to be 0
   EXPECT_EQ(of_point->H_pose, h->H_pose);
   EXPECT_EQ(of_point->H_landmark, h->H_landmark);
   EXPECT_EQ(of_point->R, point.R);
@@ -62,15 +62,15 @@ TEST(PixelPrediction, AtTheProposalItIsWhatItWillBeThere) {
   PixelMap& map = world.map.map();
   FoundPixel found = world.find(0, kAhead);
   found.z_px += Eigen::Vector2d(2.0, -1.0);
-  const auto sighting = world.prediction.linearize(map, found, world.here());
-  ASSERT_TRUE(sighting);
-  ASSERT_TRUE(map.state().propose({&*sighting, 1}));
+  const auto linearization = world.prediction.linearize(map, found, world.here());
+  ASSERT_TRUE(linearization);
+  ASSERT_TRUE(map.state().propose({&*linearization, 1}));
   const CameraPose there = world.prediction.camera().pose(map.state().proposed_pose());
   for (const int feature : {0, 1}) {
     const FoundPixel other{feature, {150.0, 100.0}, Eigen::Matrix2d::Identity()};
     const auto proposed = world.prediction.linearize_at_proposal(map, other, there);
     PointAndRay after({.consistency = Consistency::kStandard});
-    ASSERT_TRUE(after.map.map().state().update({&*sighting, 1}));
+    ASSERT_TRUE(after.map.map().state().update({&*linearization, 1}));
     const auto reached = after.prediction.linearize(after.map.map(), other, after.here());
     ASSERT_TRUE(proposed && reached);
     EXPECT_TRUE(matrix_near(proposed->nu, reached->nu, 1e-9));
@@ -95,7 +95,7 @@ TEST(PixelPrediction, FirstEstimatesGiveTheJacobiansButNotTheInnovation) {
 }
 
 TEST(PixelPrediction, ExpectsWithTheCovarianceOfTheInnovation) {
-  PointAndRay world({.wander_px = 0.0});
+  PointAndRay world({.landmark_noise_px = 0.0});
   PixelMap& map = world.map.map();
   for (const int feature : {0, 1}) {
     const auto expected = world.prediction.expect(map, feature, world.here());
@@ -103,20 +103,21 @@ TEST(PixelPrediction, ExpectsWithTheCovarianceOfTheInnovation) {
     EXPECT_EQ(expected->id, test::corner_id(feature));
     EXPECT_FALSE(expected->candidate);
     const Eigen::Matrix2d& R = world.prediction.noise().of_search();
-    const auto sighting = world.prediction.linearize(map, {feature, expected->predicted_px, R}, world.here());
-    ASSERT_TRUE(sighting);
-    EXPECT_LT(sighting->nu.norm(), 1e-9);
-    EXPECT_EQ(expected->S, map.state().innovation_covariance(*sighting));
+    const auto linearization =
+        world.prediction.linearize(map, {feature, expected->predicted_px, R}, world.here());
+    ASSERT_TRUE(linearization);
+    EXPECT_LT(linearization->nu.norm(), 1e-9);
+    EXPECT_EQ(expected->S, map.state().innovation_covariance(*linearization));
     EXPECT_NEAR(expected->information_nats, 0.5 * std::log(expected->S.determinant() / R.determinant()),
                 1e-12);
     EXPECT_TRUE(matrix_near(expected->p_world_m, world.prediction.place(map, feature), 1e-12));
   }
 }
 
-TEST(PixelPrediction, ExpectsNothingWhosePatchIsNotWhollyInThePicture) {
-  EXPECT_TRUE(PixelWorld().prediction.is_in_picture({8.5, 8.5}));
-  EXPECT_FALSE(PixelWorld().prediction.is_in_picture({100.0, 7.0}));
-  EXPECT_FALSE(PixelWorld().prediction.is_in_picture({313.0, 100.0}));
+TEST(PixelPrediction, ExpectsNothingWhosePatchIsNotWhollyInTheImage) {
+  EXPECT_TRUE(PixelWorld().prediction.is_in_image({8.5, 8.5}));
+  EXPECT_FALSE(PixelWorld().prediction.is_in_image({100.0, 7.0}));
+  EXPECT_FALSE(PixelWorld().prediction.is_in_image({313.0, 100.0}));
   PixelWorld world;
   world.load({kAhead, {4.0, 2.17, 0.6}, {-4.0, 0.0, 0.6}});  // in the middle, at the rim, behind
   EXPECT_TRUE(world.prediction.expect(world.map.map(), 0, world.here()));
@@ -152,7 +153,7 @@ TEST(PixelPrediction, ARayThatLeadsBehindInfinityIsAsFarAwayAsPointsMayBe) {
 }
 
 TEST(PixelPrediction, APointWandersAcrossTheLineOfSightAsTheViewTurns) {
-  PixelWorld world({.wander_px = 0.5});
+  PixelWorld world({.landmark_noise_px = 0.5});
   world.load({kAhead}, 0.001);
   PixelMap& map = world.map.map();
   const auto covariance = [&] { return map.state().landmark_covariance(map.feature(0).element); };
@@ -160,21 +161,21 @@ TEST(PixelPrediction, APointWandersAcrossTheLineOfSightAsTheViewTurns) {
   world.move({0.3, 0.5, 0.0});
   const CameraPose here = world.here();
   const Eigen::Matrix3d before = covariance();
-  world.prediction.let_wander(map, 0, kAhead, here);
+  world.prediction.add_process_noise(map, 0, kAhead, here);
   const Eigen::Matrix3d added = covariance() - before;
   const Eigen::Vector3d view = kAhead - here.p_world_camera;
   const double sigma_m =
-      std::sqrt(world.prediction.noise().wandered_px2(kAhead, seen_from, here.p_world_camera)) * view.norm() /
-      world.prediction.camera().options().fu_px;
+      std::sqrt(world.prediction.noise().process_noise_px2(kAhead, seen_from, here.p_world_camera)) *
+      view.norm() / world.prediction.camera().options().fu_px;
   EXPECT_NEAR(added.trace(), 2.0 * sigma_m * sigma_m, 1e-9 * added.trace());
   EXPECT_LT((added * view.normalized()).norm(), 1e-9 * added.trace());
   const Eigen::Matrix3d once = covariance();
-  world.prediction.let_wander(map, 0, kAhead, here);
+  world.prediction.add_process_noise(map, 0, kAhead, here);
   EXPECT_TRUE(matrix_near(covariance(), once, 1e-15)) << "from the same place";
 }
 
 TEST(PixelPrediction, ARayThatIsExpectedWandersInItsDirectionAlone) {
-  PixelWorld world({.wander_px = 0.5});
+  PixelWorld world({.landmark_noise_px = 0.5});
   const int ray = world.add_ray(1, kAhead, 0.1);
   PixelMap& map = world.map.map();
   const auto covariance = [&] { return map.state().landmark_covariance(map.feature(ray).element); };

@@ -20,12 +20,12 @@ namespace {
 
 using test::PointRoom;
 
-constexpr int kLap = 1390;  ///< pictures of one round
+constexpr int kLap = 1390;  ///< images of one round
 
 /// The room's pixels are as good as their covariance says, and of points that stand still.
 PixelSlamOptions with_perfect_pixels(PixelSlamOptions options) {
   options.model_sigma_px = 0.15;
-  options.wander_px = 0.0;
+  options.landmark_noise_px = 0.0;
   return options;
 }
 
@@ -37,9 +37,9 @@ struct Drive {
 
   void step() {
     filter.predict(room.move());
-    seen = room.look_for(filter.expect(), missed);
+    seen = room.search_for(filter.expect(), missed);
     note(filter.correct(seen, missed));
-    std::vector<Observation> fresh = room.look_for_new(3);
+    std::vector<Observation> fresh = room.search_for_new(3);
     std::erase_if(fresh, [this](const Observation& each) { return gone.contains(*each.id); });
     note(filter.correct(fresh));
   }
@@ -133,8 +133,8 @@ TEST(PixelSlam, GoesOnFromASavedMap) {
     // With the landmarks in view alone, and nothing new.
     for (int i = 0; i < 60; ++i) {
       again.predict(drive.room.move());
-      const auto seen = drive.room.look_for(again.expect(), drive.missed);
-      EXPECT_GT(again.correct(seen).count(Outcome::kMatched), 0) << "seed " << seed << ", picture " << i;
+      const auto seen = drive.room.search_for(again.expect(), drive.missed);
+      EXPECT_GT(again.correct(seen).count(Outcome::kMatched), 0) << "seed " << seed << ", image " << i;
     }
     const PoseEstimate pose = again.pose();
     EXPECT_LT(*mahalanobis_squared<3>(difference(drive.truth(), pose.T_world_robot), pose.covariance), 20.0);
@@ -218,23 +218,23 @@ TEST(PixelSlam, ACandidateBecomesALandmarkOnceItsDepthIsKnown) {
   Drive drive(1);
   drive.filter.predict(drive.room.move());
   ASSERT_TRUE(drive.filter.expect().empty());
-  const auto first = drive.room.look_for_new(1);
+  const auto first = drive.room.search_for_new(1);
   EXPECT_EQ(drive.filter.correct(first).count(Outcome::kAdded), 1);
   EXPECT_EQ(drive.filter.candidates(), 1);
   EXPECT_TRUE(drive.filter.map().features().empty());
   EXPECT_TRUE(drive.filter.snapshot().landmarks.empty());
-  for (int pictures = 1; drive.filter.candidates() == 1; ++pictures) {
-    ASSERT_LT(pictures, 30);
+  for (int images = 1; drive.filter.candidates() == 1; ++images) {
+    ASSERT_LT(images, 30);
     drive.filter.predict(drive.room.move());
     const auto expected = drive.filter.expect();
     ASSERT_EQ(expected.size(), 1U);
     EXPECT_TRUE(expected[0].candidate);
-    const auto seen = drive.room.look_for(expected, drive.missed);
+    const auto seen = drive.room.search_for(expected, drive.missed);
     ASSERT_EQ(seen.size(), 1U);
     const Eigen::Vector2d pixel(std::get<Pixel>(seen[0].value).u_px, std::get<Pixel>(seen[0].value).v_px);
     EXPECT_LT(*mahalanobis_squared<2>(pixel - expected[0].predicted_px, expected[0].S), 20.0);
     EXPECT_EQ(drive.filter.correct(seen).count(Outcome::kMatched), 1);
-    EXPECT_TRUE(drive.filter.map().features().empty() || pictures >= PixelSlamOptions().least_pictures);
+    EXPECT_TRUE(drive.filter.map().features().empty() || images >= PixelSlamOptions().min_images);
   }
   ASSERT_EQ(drive.filter.map().features().size(), 1U);
   EXPECT_EQ(drive.filter.map().features()[0].id, *first[0].id);
@@ -249,7 +249,7 @@ TEST(PixelSlam, ALandmarkThatIsMissedTooOftenLeavesAndOneThatIsMissedNowAndThenS
   const LandmarkId falters = drive.filter.map().features()[1].id;
   for (int k = 0; k < 100 && !drive.gone.contains(fails); ++k) {
     drive.filter.predict(drive.room.move());
-    auto seen = drive.room.look_for(drive.filter.expect(), drive.missed);
+    auto seen = drive.room.search_for(drive.filter.expect(), drive.missed);
     std::vector<LandmarkId> missed{fails};
     if (k % 3 == 0) missed.push_back(falters);
     std::erase_if(seen, [&](const Observation& each) { return std::ranges::count(missed, *each.id) > 0; });
@@ -283,7 +283,7 @@ TEST(PixelSlam, RefusesWhatItCannotUseAndSaysWhy) {
   Drive drive(5);
   drive.run(60);
   drive.filter.predict(drive.room.move());
-  const auto good = drive.room.look_for(drive.filter.expect(), drive.missed);
+  const auto good = drive.room.search_for(drive.filter.expect(), drive.missed);
   ASSERT_GE(good.size(), 5U);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
@@ -332,8 +332,8 @@ TEST(PixelSlam, AStepAllocatesNothing) {
     drive.filter.predict(motion);
     const auto expected = drive.filter.expect();
     allocations += looking.allocations();
-    const auto seen = drive.room.look_for(expected, drive.missed);
-    const auto fresh = drive.room.look_for_new(3);
+    const auto seen = drive.room.search_for(expected, drive.missed);
+    const auto fresh = drive.room.search_for_new(3);
     const test::AllocationCount correcting;
     drive.filter.correct(seen, drive.missed);
     drive.filter.correct(fresh);
@@ -364,25 +364,25 @@ TEST(PixelSlam, SavesTheWholeBeliefAndShowsTheSame) {
     EXPECT_EQ(shown.landmarks[k].covariance, P);
     const int observations = shown.landmarks[k].observations;
     EXPECT_EQ(observations, saved.observations[k]);
-    EXPECT_GE(observations, PixelSlamOptions().least_pictures);
+    EXPECT_GE(observations, PixelSlamOptions().min_images);
     nees += *mahalanobis_squared<3>(p - drive.truth(saved.ids[k]), P) / static_cast<double>(saved.ids.size());
   }
   EXPECT_LT(nees, 9.0);
 }
 
-TEST(PixelSlam, APictureMayComeInSeveralParts) {
+TEST(PixelSlam, AnImageMayComeInSeveralParts) {
   Drive whole(10);
   Drive parts(10);
   for (int i = 0; i < 200; ++i) {
     whole.step();
     parts.filter.predict(parts.room.move());
-    const auto seen = parts.room.look_for(parts.filter.expect(), parts.missed);
+    const auto seen = parts.room.search_for(parts.filter.expect(), parts.missed);
     parts.filter.correct({}, parts.missed);
     for (std::size_t next = 0; next < seen.size(); next += 7) {
       const std::span<const Observation> part(&seen[next], std::min<std::size_t>(7, seen.size() - next));
       EXPECT_EQ(parts.filter.correct(part).innovations.size(), part.size());
     }
-    parts.filter.correct(parts.room.look_for_new(3));
+    parts.filter.correct(parts.room.search_for_new(3));
   }
   EXPECT_LT(parts.nees(), 16.3);  // 99.9 %
   const double apart_m =

@@ -24,7 +24,7 @@ struct BeforeAWall : PixelWorld {
     load(points, 0.003);
     move({0.2, 0.0, 0.0}, 0.01);
     truth = truth * Pose2{0.01, 0.015, 0.01};
-    map.begin_picture();
+    map.begin_image();
     for (int i = 0; i < corners; ++i) found.push_back(find(i, points[static_cast<std::size_t>(i)]));
   }
   [[nodiscard]] double error_m() const {
@@ -44,9 +44,10 @@ TEST(PixelUpdate, BringsTheRobotToWhereThePixelsSayThatItIs) {
   BeforeAWall world;
   const double before_m = world.error_m();
   const FoundPixel& first = world.found[0];
-  const Sighting sighting = *world.prediction.linearize(world.map.map(), first, world.here());
-  const Eigen::Matrix2d S = world.map.map().state().innovation_covariance(sighting);
-  const double nis = *mahalanobis_squared<2>(sighting.nu, S);
+  const LinearizedObservation linearization =
+      *world.prediction.linearize(world.map.map(), first, world.here());
+  const Eigen::Matrix2d S = world.map.map().state().innovation_covariance(linearization);
+  const double nis = *mahalanobis_squared<2>(linearization.nu, S);
   const auto innovations = world.run();
   ASSERT_EQ(innovations.size(), world.points.size());
   for (std::size_t i = 0; i < innovations.size(); ++i) {
@@ -60,7 +61,7 @@ TEST(PixelUpdate, BringsTheRobotToWhereThePixelsSayThatItIs) {
   EXPECT_NEAR(innovations[0].gate, 18.42, 0.01);
   EXPECT_LT(world.error_m(), before_m);
   EXPECT_LT(world.prediction.linearize(world.map.map(), first, world.here())->nu.norm(),
-            0.2 * sighting.nu.norm());
+            0.2 * linearization.nu.norm());
 }
 
 TEST(PixelUpdate, AWildPixelIsGatedAndChangesNothing) {
@@ -88,14 +89,15 @@ TEST(PixelUpdate, WhoIsAlwaysOutvotedIsRetired) {
 }
 
 TEST(PixelUpdate, WhatHardlyAgreesIsRescuedWhereItFitsInTheEnd) {
-  // A noisy one, beyond the gate of agreement, 9.21, but within that of a sighting, 18.42.
+  // A noisy one, beyond the gate of agreement, 9.21, but within that of an observation, 18.42.
   BeforeAWall world;
   world.found[4].R = 4.0 * Eigen::Matrix2d::Identity();
   world.found[4].z_px.x() -= 7.0;
   BeforeAWall others;
   others.found.erase(others.found.begin() + 4);
   static_cast<void>(others.run());
-  const Sighting left = *others.prediction.linearize(others.map.map(), world.found[4], others.here());
+  const LinearizedObservation left =
+      *others.prediction.linearize(others.map.map(), world.found[4], others.here());
   const double nis = *mahalanobis_squared<2>(left.nu, others.map.map().state().innovation_covariance(left));
   ASSERT_GT(nis, 10.0);
   ASSERT_LT(nis, 18.0);
@@ -111,10 +113,10 @@ TEST(PixelUpdate, ManyGoInBlocksEachLinearisedAtWhatTheEarlierOnesFound) {
   const auto innovations = at_once.run();
   ASSERT_EQ(innovations.size(), static_cast<std::size_t>(kCorners));
   const std::span<const FoundPixel> all(in_two.found);
-  static_cast<void>(in_two.update.update(all.first(State::kMaxSightings)));
-  const auto rest = in_two.update.update(all.subspan(State::kMaxSightings));
+  static_cast<void>(in_two.update.update(all.first(State::kMaxObservations)));
+  const auto rest = in_two.update.update(all.subspan(State::kMaxObservations));
   for (std::size_t k = 0; k < rest.size(); ++k)
-    EXPECT_EQ(rest[k].nis, innovations[State::kMaxSightings + k].nis);
+    EXPECT_EQ(rest[k].nis, innovations[State::kMaxObservations + k].nis);
   EXPECT_EQ(at_once.map.map().state().mean(), in_two.map.map().state().mean());
   EXPECT_EQ(at_once.map.map().state().covariance(), in_two.map.map().state().covariance());
 }

@@ -24,7 +24,7 @@ inline LandmarkId corner_id(int number) { return {LandmarkId::Family::kCorner, n
 struct PixelWorld {
   explicit PixelWorld(const PixelSlamOptions& options = {})
       : prediction(options, {.mount = {.x_m = 0.1, .z_m = 0.5}}), map(options, prediction.camera(), 1) {
-    prediction.noise().begin_picture(map.map().state());
+    prediction.noise().begin_image(map.map().state());
   }
 
   /// The robot goes where it says it goes, but the filter does not know how well it does.
@@ -65,7 +65,7 @@ struct PixelWorld {
     const CameraPose camera = prediction.camera().pose(truth);
     return camera.R_camera_world * (p_world - camera.p_world_camera);
   }
-  /// Where a point, which must be in front of the camera, is in the picture.
+  /// Where a point, which must be in front of the camera, is in the image.
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d& p_world) const {
     return prediction.camera().project(in_camera(p_world))->pixel;
   }

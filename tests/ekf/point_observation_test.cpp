@@ -13,10 +13,10 @@ namespace waymark::ekf {
 namespace {
 
 const Pose2 kMount{0.2, -0.1, 0.3};
-const View kView{{1.0, 2.0, 0.4}, {4.0, -1.0}};
+const LinearizationPoint kView{{1.0, 2.0, 0.4}, {4.0, -1.0}};
 
 /// What is measured without noise from a view, as the plain formula has it.
-RangeBearing measure(const View& view) {
+RangeBearing measure(const LinearizationPoint& view) {
   const Eigen::Vector2d p = (view.T_world_robot * kMount).inverse() * view.p_world;
   return {p.norm(), std::atan2(p.y(), p.x())};
 }
@@ -41,7 +41,7 @@ TEST(Linearize, TheInnovationIsWhatWasMeasuredLessWhatIsExpected) {
 }
 
 TEST(Linearize, JacobiansAreThoseOfTheOtherView) {
-  View at = kView;
+  LinearizationPoint at = kView;
   at.T_world_robot.theta_rad += 0.2;
   at.p_world.x() += 0.3;
   const RangeBearing h = measure(kView);
@@ -52,7 +52,7 @@ TEST(Linearize, JacobiansAreThoseOfTheOtherView) {
   EXPECT_EQ(mixed->H_landmark, there->H_landmark);
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 2; ++k) {
-    View plus = at, minus = at;
+    LinearizationPoint plus = at, minus = at;
     plus.p_world[k] += kStep;
     minus.p_world[k] -= kStep;
     EXPECT_NEAR(there->H_landmark(0, k), (measure(plus).range_m - measure(minus).range_m) / (2.0 * kStep),
@@ -63,7 +63,7 @@ TEST(Linearize, JacobiansAreThoseOfTheOtherView) {
 }
 
 TEST(Linearize, APointAtTheSensorIsNotObserved) {
-  const View inside{kView.T_world_robot, (kView.T_world_robot * kMount).position()};
+  const LinearizationPoint inside{kView.T_world_robot, (kView.T_world_robot * kMount).position()};
   EXPECT_FALSE(linearize(Range{1.0}, inside, inside, kMount));
   EXPECT_FALSE(linearize(Range{1.0}, kView, inside, kMount));
 }
@@ -87,10 +87,10 @@ class ObservedPoint : public testing::Test {
   ObservedPoint() { errors_.start(state_); }
 
   [[nodiscard]] static SensorErrors errors() {
-    return {.shared_range_sigma_m = 0.1, .shared_bearing_sigma_deg = 1.0, .lasting_bearing_sigma_deg = 1.0};
+    return {.shared_range_sigma_m = 0.1, .shared_bearing_sigma_deg = 1.0, .bias_bearing_sigma_deg = 1.0};
   }
 
-  LastingErrors errors_{errors()};
+  SensorBiasStates errors_{errors()};
   CompressedState state_{2, 8, Consistency::kInvariant, {8, 8}, 1, errors_.pairs()};
   PointObservation observation_{state_, errors_, kMount};
 };
@@ -98,7 +98,7 @@ class ObservedPoint : public testing::Test {
 TEST_F(ObservedPoint, IsLocatedWhereItIsObservedAgain) {
   state_.place_robot({kView.T_world_robot, Eigen::Matrix3d::Zero()});
   errors_.begin_scan();
-  errors_.sight(state_, {});
+  errors_.assign(state_, {});
   const Observation observation = observe(measure(kView));
   const LocatedPoint located = observation_.locate({}, observation);
   EXPECT_TRUE(test::matrix_near(located.p_world, kView.p_world, 1e-12));
@@ -116,10 +116,10 @@ TEST_F(ObservedPoint, IsLocatedWhereItIsObservedAgain) {
 
 TEST_F(ObservedPoint, OfOneRowHasTheErrorsOfThatRow) {
   errors_.begin_scan();
-  errors_.sight(state_, {});
-  const SightingError both = observation_.error_of({}, 5.0, RangeBearing{});
-  const SightingError range = observation_.error_of({}, 5.0, Range{});
-  const SightingError bearing = observation_.error_of({}, 5.0, Bearing{});
+  errors_.assign(state_, {});
+  const ObservationBias both = observation_.error_of({}, 5.0, RangeBearing{});
+  const ObservationBias range = observation_.error_of({}, 5.0, Range{});
+  const ObservationBias bearing = observation_.error_of({}, 5.0, Bearing{});
   for (std::size_t k = 0; k < both.terms.size(); ++k) {
     EXPECT_EQ(range.terms[k].J.row(0), both.terms[k].J.row(0));
     EXPECT_EQ(bearing.terms[k].J.row(0), both.terms[k].J.row(1));
@@ -131,21 +131,21 @@ TEST_F(ObservedPoint, OfOneRowHasTheErrorsOfThatRow) {
 TEST_F(ObservedPoint, AtTheProposalTheInnovationIsWhatIsLeft) {
   state_.place_robot({kView.T_world_robot, 1e-2 * Eigen::Matrix3d::Identity()});
   errors_.begin_scan();
-  errors_.sight(state_, {});
+  errors_.assign(state_, {});
   Observation observation = observe(measure(kView));
   const LocatedPoint located = observation_.locate({}, observation);
   Eigen::Matrix3d noise = 1e-6 * Eigen::Matrix3d::Identity();
   const int index =
       state_.add({located.p_world.x(), located.p_world.y(), 0.0}, Eigen::Matrix3d::Zero(), noise);
   std::get<RangeBearing>(observation.value).range_m += 0.1;
-  const auto sighting = observation_.linearize(index, {}, observation);
-  ASSERT_TRUE(sighting);
-  EXPECT_NEAR(sighting->nu[0], 0.1, 1e-9);
-  ASSERT_TRUE(state_.propose({&*sighting, 1}));
-  const auto there = observation_.linearize_at_proposal(*sighting, observation.value);
+  const auto linearization = observation_.linearize(index, {}, observation);
+  ASSERT_TRUE(linearization);
+  EXPECT_NEAR(linearization->nu[0], 0.1, 1e-9);
+  ASSERT_TRUE(state_.propose({&*linearization, 1}));
+  const auto there = observation_.linearize_at_proposal(*linearization, observation.value);
   ASSERT_TRUE(there);
   EXPECT_LT(std::abs(there->nu[0]), 0.02);
-  EXPECT_EQ(there->R, sighting->R);
+  EXPECT_EQ(there->R, linearization->R);
 }
 
 }  // namespace

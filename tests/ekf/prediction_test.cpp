@@ -7,7 +7,7 @@
 #include "waymark/core/random.hpp"
 #include "waymark/ekf/state.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -30,12 +30,12 @@ TEST(Prediction, OfAPoseIsItsPropagation) {
   EXPECT_TRUE(matrix_near(P.block<3>(0), expected.covariance, 1e-15));
 }
 
-/// The covariance after a motion that depends on lasting errors is F P F^T + G Q G^T of the whole state, by
+/// The covariance after a motion that depends on biases is F P F^T + G Q G^T of the whole state, by
 /// plain matrices.
-TEST(Prediction, SpreadsLastingErrorsAsPlainMatricesDo) {
+TEST(Prediction, SpreadsBiasesAsPlainMatricesDo) {
   RandomStream random(7, StreamPurpose::kWorld);
   State state(2, 4, Consistency::kStandard, 1, 2);
-  for (int pair = 0; pair < 2; ++pair) state.relax_errors(pair, 0.0);
+  for (int pair = 0; pair < 2; ++pair) state.propagate_bias(pair, 0.0);
   const auto random_terms = [&random] {
     ErrorTerms terms;
     for (int pair = 0; pair < 2; ++pair) {

@@ -6,24 +6,24 @@
 #include "waymark/core/random.hpp"
 #include "waymark/ekf/state.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
 
 using test::matrix_near;
-using test::random_sighting;
+using test::random_observation;
 
 /// Two landmarks, a pair of errors, and an update that is proposed.
 class ProposalTest : public testing::TestWithParam<Consistency> {
  protected:
   ProposalTest() : state_(2, 2, GetParam(), 1, 1) {
-    state_.relax_errors(0, 0.0);
+    state_.propagate_bias(0, 0.0);
     state_.predict({{1.0, 0.2, 0.3}, test::random_covariance<3>(random_, 0.1)});
     for (int i = 0; i < 2; ++i)
       state_.add({2.0, 3.0 * i, 0.0}, Eigen::Matrix3d::Identity(), test::random_covariance<3>(random_, 0.1));
-    const Sighting sighting = random_sighting(random_, 0, 2, 1);
-    EXPECT_TRUE(state_.propose({&sighting, 1}));
+    const LinearizedObservation linearization = random_observation(random_, 0, 2, 1);
+    EXPECT_TRUE(state_.propose({&linearization, 1}));
   }
 
   RandomStream random_{1, StreamPurpose::kWorld};
@@ -46,8 +46,8 @@ TEST_P(ProposalTest, IsWhereTheUpdateLeads) {
 }
 
 TEST_P(ProposalTest, AddsToAnInnovationWhatItExplains) {
-  const Sighting there = random_sighting(random_, 1, 2, 1);
-  const Sighting back = state_.proposal().moved_back(there);
+  const LinearizedObservation there = random_observation(random_, 1, 2, 1);
+  const LinearizedObservation back = state_.proposal().relinearized_to_prior(there);
   EXPECT_TRUE(matrix_near(back.nu, Eigen::Vector2d(there.nu + state_.proposal().explained(back)), 1e-14));
   EXPECT_EQ(back.H_landmark, there.H_landmark);
   EXPECT_EQ(back.H_pose == there.H_pose, GetParam() != Consistency::kInvariant);
@@ -58,18 +58,19 @@ INSTANTIATE_TEST_SUITE_P(AllModes, ProposalTest,
 
 using InvariantProposalTest = ProposalTest;
 
-/// A sighting where it is proposed to be, which does not see a turn of everything about the origin, does not
-/// see it either when it is moved back to where the invariant state still is.
+/// An observation where it is proposed to be, which does not see a turn of everything about the origin, does
+/// not see it either when it is moved back to where the invariant state still is.
 TEST_P(InvariantProposalTest, MovesBackWhatDoesNotSeeTheWorldTurn) {
-  const auto seen_of_a_turn = [](const Sighting& s, const Pose2& robot, const Eigen::Vector3d& landmark) {
+  const auto seen_of_a_turn = [](const LinearizedObservation& s, const Pose2& robot,
+                                 const Eigen::Vector3d& landmark) {
     const Eigen::Vector2d moved = perpendicular(robot.position());
     return Eigen::Vector2d(s.H_pose * Eigen::Vector3d(moved.x(), moved.y(), 1.0) +
                            s.H_landmark.leftCols<2>() * perpendicular(landmark.head<2>()));
   };
   const Proposal proposal = state_.proposal();
-  Sighting there = random_sighting(random_, 1, 2);
+  LinearizedObservation there = random_observation(random_, 1, 2);
   there.H_pose.col(2) -= seen_of_a_turn(there, proposal.pose(), proposal.landmark(1));
-  const Sighting back = proposal.moved_back(there);
+  const LinearizedObservation back = proposal.relinearized_to_prior(there);
   EXPECT_TRUE(matrix_near(seen_of_a_turn(back, state_.pose().T_world_robot, state_.landmark(1)),
                           Eigen::Vector2d(0.0, 0.0), 1e-13));
 }

@@ -6,7 +6,7 @@
 
 #include "waymark/core/random.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -25,10 +25,10 @@ TEST(StateLayout, HasRobotThenErrorsThenLandmarks) {
   EXPECT_EQ(error_pair(values.data(), 1), Eigen::Vector2d(5.0, 6.0));
 }
 
-TEST(StateLayout, ASightingTouchesTheRobotItsErrorsAndItsPoints) {
+TEST(StateLayout, AnObservationTouchesTheRobotItsErrorsAndItsPoints) {
   RandomStream random(1, StreamPurpose::kWorld);
   const StateLayout layout{3, error_offset(2), 4};
-  Sighting s = test::random_sighting(random, 1, 3);
+  LinearizedObservation s = test::random_observation(random, 1, 3);
   s.anchor = 3;
   s.errors = {};
   s.errors[2].pair = 1;

@@ -12,7 +12,7 @@
 #include "waymark/core/random.hpp"
 
 #include "dense_filter.hpp"
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -21,7 +21,7 @@ using test::DenseFilter;
 using test::matrix_near;
 using test::random_errors;
 using test::random_motion;
-using test::random_sighting;
+using test::random_observation;
 using test::small_map;
 
 struct StateCase {
@@ -39,13 +39,13 @@ class Twins {
         dense_(kind.dimension, kind.consistency, kind.error_pairs),
         random_(seed, StreamPurpose::kWorld) {
     predict();  // from here on the covariance is positive definite
-    for (int pair = 0; pair < kind.error_pairs; ++pair) relax(pair, 0.0);
+    for (int pair = 0; pair < kind.error_pairs; ++pair) propagate(pair, 0.0);
   }
 
   void step() {
     const double what = random_.uniform();
     if (kind_.error_pairs > 0 && random_.uniform() < 0.3)
-      relax(static_cast<int>(random_.uniform() * kind_.error_pairs), random_.uniform());
+      propagate(static_cast<int>(random_.uniform() * kind_.error_pairs), random_.uniform());
     if (what < 0.45)
       predict();
     else if (what < 0.6 && state_.landmarks() < state_.capacity())
@@ -76,9 +76,9 @@ class Twins {
  private:
   [[nodiscard]] int any_landmark() { return static_cast<int>(random_.uniform() * state_.landmarks()); }
 
-  void relax(int pair, double rho) {
-    state_.relax_errors(pair, rho);
-    dense_.relax_errors(pair, rho);
+  void propagate(int pair, double rho) {
+    state_.propagate_bias(pair, rho);
+    dense_.propagate_bias(pair, rho);
   }
 
   void predict() {
@@ -146,32 +146,33 @@ class Twins {
     dense_.remove(index);
   }
 
-  [[nodiscard]] Sighting any_sighting() {
-    Sighting s = random_sighting(random_, any_landmark(), kind_.dimension, kind_.error_pairs);
+  [[nodiscard]] LinearizedObservation any_observation() {
+    LinearizedObservation s = random_observation(random_, any_landmark(), kind_.dimension, kind_.error_pairs);
     if (anchors() && random_.uniform() < 0.4) s.anchor = another_than(s.landmark);
     return s;
   }
 
   void update() {
-    std::vector<Sighting> sightings;
-    for (int i = 0; i < 1 + static_cast<int>(random_.uniform() * 4); ++i) sightings.push_back(any_sighting());
-    expect_equal_covariance_of(sightings);
-    ASSERT_TRUE(state_.propose(sightings));
+    std::vector<LinearizedObservation> linearizations;
+    for (int i = 0; i < 1 + static_cast<int>(random_.uniform() * 4); ++i)
+      linearizations.push_back(any_observation());
+    expect_equal_covariance_of(linearizations);
+    ASSERT_TRUE(state_.propose(linearizations));
     const Pose2 proposed = state_.proposed_pose();
-    const Eigen::Vector3d proposed_landmark = state_.proposed_landmark(sightings[0].landmark);
+    const Eigen::Vector3d proposed_landmark = state_.proposed_landmark(linearizations[0].landmark);
     state_.accept();
     EXPECT_EQ(proposed, state_.pose().T_world_robot);
-    EXPECT_TRUE(matrix_near(proposed_landmark, state_.landmark(sightings[0].landmark), 1e-14));
-    dense_.update(sightings);
+    EXPECT_TRUE(matrix_near(proposed_landmark, state_.landmark(linearizations[0].landmark), 1e-14));
+    dense_.update(linearizations);
   }
 
-  void expect_equal_covariance_of(std::span<const Sighting> sightings) {
-    const Eigen::MatrixXd S = dense_.innovation_covariance(sightings);
+  void expect_equal_covariance_of(std::span<const LinearizedObservation> linearizations) {
+    const Eigen::MatrixXd S = dense_.innovation_covariance(linearizations);
     const Eigen::MatrixXd lower =
-        state_.joint_innovation_covariance(sightings).triangularView<Eigen::Lower>();
+        state_.joint_innovation_covariance(linearizations).triangularView<Eigen::Lower>();
     EXPECT_TRUE(matrix_near(lower, Eigen::MatrixXd(S.triangularView<Eigen::Lower>()),
                             1e-8 * std::max(1.0, S.cwiseAbs().maxCoeff())));
-    const Sighting& first = sightings[0];
+    const LinearizedObservation& first = linearizations[0];
     EXPECT_TRUE(matrix_near(state_.innovation_covariance(first).topLeftCorner(first.rows, first.rows),
                             S.topLeftCorner(first.rows, first.rows), 1e-8 * std::max(1.0, S.maxCoeff())));
   }
@@ -217,12 +218,12 @@ INSTANTIATE_TEST_SUITE_P(
                     StateCase{2, Consistency::kStandard, 3}, StateCase{2, Consistency::kInvariant, 3},
                     StateCase{3, Consistency::kFej, 2}));
 
-TEST(State, LoosensALandmarkByItself) {
+TEST(State, InflatesTheCovarianceOfALandmark) {
   RandomStream random(6, StreamPurpose::kWorld);
   const auto made = small_map(random, 5);
   Eigen::MatrixXd expected = made->covariance();
   const Eigen::Matrix3d more = test::random_covariance<3>(random, 0.1);
-  made->loosen(2, more);
+  made->inflate(2, more);
   expected.block<2, 2>(7, 7) += more.topLeftCorner<2, 2>();
   EXPECT_TRUE(matrix_near(made->covariance(), expected, 1e-15));
 }
@@ -234,7 +235,7 @@ TEST(State, RefusesAnInnovationCovarianceThatIsNotPositive) {
   const Eigen::VectorXd mean = state.mean();
   const Eigen::MatrixXd covariance = state.covariance();
   for (const double r : {-100.0, std::nan("")}) {
-    Sighting s = random_sighting(random, 1, 2);
+    LinearizedObservation s = random_observation(random, 1, 2);
     s.R = r * Eigen::Matrix2d::Identity();
     EXPECT_FALSE(state.update({&s, 1}));
     EXPECT_EQ(state.mean(), mean);
@@ -249,8 +250,9 @@ TEST(State, TwoThreadsGiveTheSameBits) {
     const auto made = small_map(random, 500, threads);
     State& state = *made;  // n = 1003: large enough to be split
     for (int i = 0; i < 3; ++i) {
-      const std::vector<Sighting> sightings{random_sighting(random, 5, 2), random_sighting(random, 400, 2)};
-      ASSERT_TRUE(state.update(sightings));
+      const std::vector<LinearizedObservation> linearizations{random_observation(random, 5, 2),
+                                                              random_observation(random, 400, 2)};
+      ASSERT_TRUE(state.update(linearizations));
     }
     results.push_back(state.covariance());
   }
@@ -273,19 +275,19 @@ TEST(State, HoldingLandmarksIsTheConsiderFilter) {
     state.predict(random_motion(random));
     const Eigen::MatrixXd P = state.covariance();
     x = state.mean();
-    Sighting sighting = random_sighting(random, step % kLandmarks, 2);
-    sighting.rows = 2;
+    LinearizedObservation linearization = random_observation(random, step % kLandmarks, 2);
+    linearization.rows = 2;
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, kSize);
-    H.leftCols<3>() = sighting.H_pose;
-    H.middleCols<2>(3 + 2 * sighting.landmark) = sighting.H_landmark.leftCols<2>();
-    Eigen::MatrixXd K = P * H.transpose() * (H * P * H.transpose() + sighting.R).inverse();
+    H.leftCols<3>() = linearization.H_pose;
+    H.middleCols<2>(3 + 2 * linearization.landmark) = linearization.H_landmark.leftCols<2>();
+    Eigen::MatrixXd K = P * H.transpose() * (H * P * H.transpose() + linearization.R).inverse();
     K.bottomRows(kSize - 3).setZero();
     const Eigen::MatrixXd I_KH = Eigen::MatrixXd::Identity(kSize, kSize) - K * H;
-    ASSERT_TRUE(state.update({&sighting, 1}));
-    Eigen::VectorXd expected = x + K * sighting.nu;
+    ASSERT_TRUE(state.update({&linearization, 1}));
+    Eigen::VectorXd expected = x + K * linearization.nu;
     expected[2] = wrap_angle(expected[2]);
     EXPECT_TRUE(matrix_near(state.mean(), expected, 1e-12));
-    const Eigen::MatrixXd P_after = I_KH * P * I_KH.transpose() + K * sighting.R * K.transpose();
+    const Eigen::MatrixXd P_after = I_KH * P * I_KH.transpose() + K * linearization.R * K.transpose();
     EXPECT_TRUE(matrix_near(state.covariance(), P_after, 1e-12));
   }
   EXPECT_EQ(state.covariance().bottomRightCorner(kSize - 3, kSize - 3),

@@ -85,7 +85,7 @@ TEST(TextbookUpdate, RefusesAnInnovationCovarianceThatIsNotPositive) {
 /// A robot with poses, points and what is relative to poses.
 void fill(State& state, RandomStream& random) {
   state.predict({{0.1, 0.0, 0.1}, test::random_covariance<3>(random, 1e-3)});
-  state.relax_errors(0, 0.0);
+  state.propagate_bias(0, 0.0);
   for (int i = 0; i < 4; ++i) {
     state.add_pose();
     state.predict({{0.1, 0.0, 0.1}, test::random_covariance<3>(random, 1e-3)});
@@ -95,10 +95,10 @@ void fill(State& state, RandomStream& random) {
   }
 }
 
-std::vector<Sighting> sightings(RandomStream& random) {
-  std::vector<Sighting> made(5);
+std::vector<LinearizedObservation> linearizations(RandomStream& random) {
+  std::vector<LinearizedObservation> made(5);
   for (int i = 0; i < 5; ++i) {
-    Sighting& s = made[static_cast<std::size_t>(i)];
+    LinearizedObservation& s = made[static_cast<std::size_t>(i)];
     s.landmark = 2 * i + 1;
     s.anchor = i % 2 == 0 ? 2 * i : -1;
     s.rows = i == 3 ? 1 : 2;
@@ -123,7 +123,7 @@ TEST(TextbookUpdate, OfAStateIsThatOfTheFastOne) {
     fill(*state, same);
   }
   for (int i = 0; i < 10; ++i) {
-    const auto seen = sightings(random);
+    const auto seen = linearizations(random);
     ASSERT_TRUE(fast.propose(seen));
     ASSERT_TRUE(slow.propose(seen));
     EXPECT_TRUE(matrix_near(slow.explained(seen[0]), fast.explained(seen[0]), 1e-10));
@@ -141,7 +141,7 @@ TEST(TextbookUpdate, OfAStateAllocatesNothing) {
   State state(3, 20, Consistency::kStandard, 1, 1);
   state.use_textbook_update();
   fill(state, random);
-  const auto seen = sightings(random);
+  const auto seen = linearizations(random);
   const test::AllocationCount count;
   ASSERT_TRUE(state.update(seen));
   EXPECT_EQ(count.allocations(), 0);

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "support/circle_world.hpp"
-#include "support/unnamed_filter_suite.hpp"
-#include "support/unnamed_sightings.hpp"
+#include "support/unknown_identity_observations.hpp"
+#include "support/unknown_identity_suite.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 
 namespace waymark {
@@ -16,7 +16,7 @@ namespace {
 
 using test::CircleWorld;
 using test::drive;
-using test::unnamed;
+using test::without_identity;
 
 EkfSlam make_filter(const CircleWorld& world, EkfOptions options = {.capacity = 40}, bool jointly = true) {
   options.unknown = UnknownAssociation{jointly, {}};
@@ -36,37 +36,37 @@ using EitherWay = testing::Types<Ekf<true>, Ekf<false>>;
 }  // namespace
 
 namespace test {
-INSTANTIATE_TYPED_TEST_SUITE_P(EkfSlam, UnnamedFilter, EitherWay);
+INSTANTIATE_TYPED_TEST_SUITE_P(EkfSlam, UnknownIdentityFilter, EitherWay);
 }  // namespace test
 
 namespace {
 
-TEST(UnknownMatcher, WithoutAssociationNothingUnnamedIsUsed) {
+TEST(UnknownMatcher, WithoutAssociationNothingOfUnknownIdentityIsUsed) {
   CircleWorld world(1);
   EkfSlam filter({.capacity = 40}, world.sensor());
-  EXPECT_EQ(filter.correct(unnamed(world.look())).count(Outcome::kUnidentified), 8);
+  EXPECT_EQ(filter.correct(without_identity(world.look())).count(Outcome::kUnidentified), 8);
 }
 
 TEST(UnknownMatcher, WithoutClutterItIsTheFilterThatKnows) {
   CircleWorld told(2);
-  CircleWorld untold(2);
+  CircleWorld unobservable(2);
   EkfSlam knows({.capacity = 40}, told.sensor());
-  EkfSlam guesses = make_filter(untold);
+  EkfSlam guesses = make_filter(unobservable);
   for (int i = 0; i < 100; ++i) {
     knows.predict(told.move());
     knows.correct(told.look());
-    guesses.predict(untold.move());
-    guesses.correct(unnamed(untold.look()));
+    guesses.predict(unobservable.move());
+    guesses.correct(without_identity(unobservable.look()));
   }
   const Eigen::Vector3d apart = difference(knows.pose().T_world_robot, guesses.pose().T_world_robot);
   EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT((knows.save().covariance - guesses.save().covariance).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(UnknownMatcher, ASingleSightingIsNotInTheSavedCovarianceYet) {
+TEST(UnknownMatcher, ASingleObservationIsNotInTheSavedCovarianceYet) {
   CircleWorld world(2);
   EkfSlam filter = make_filter(world);
-  filter.correct(unnamed(world.look()));
+  filter.correct(without_identity(world.look()));
   EXPECT_EQ(filter.save().covariance.rows(), 3);
   drive(filter, world, 3);
   EXPECT_EQ(filter.save().covariance.rows(), 19);
@@ -77,7 +77,7 @@ TEST(UnknownMatcher, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);
   filter.predict(world.move());
-  auto scan = unnamed(world.look());
+  auto scan = without_identity(world.look());
   RandomStream random(5, StreamPurpose::kSimulation);
   while (filter.correct(scan).count(Outcome::kAdded) == 0) scan.insert(scan.begin(), test::clutter(random));
   const Snapshot snapshot = filter.snapshot();
@@ -94,12 +94,12 @@ TEST(UnknownMatcher, WhatIsSavedIsTheMapWithoutTentativeLandmarks) {
   }
 }
 
-TEST(UnknownMatcher, ASecondSightingBesideALandmarkIsAmbiguous) {
+TEST(UnknownMatcher, ASecondObservationBesideALandmarkIsAmbiguous) {
   CircleWorld world(7);
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);
   filter.predict(world.move());
-  auto scan = unnamed(world.look());
+  auto scan = without_identity(world.look());
   scan.push_back(scan.front());
   std::get<RangeBearing>(scan.back().value).range_m += 0.1;
   const Correction& correction = filter.correct(scan);
@@ -136,7 +136,7 @@ TEST(UnknownMatcher, NonsenseIsRefused) {
   CircleWorld world(10);
   EkfSlam filter = make_filter(world);
   drive(filter, world, 20);
-  auto scan = unnamed(world.look());
+  auto scan = without_identity(world.look());
   std::get<RangeBearing>(scan[0].value).range_m = NAN;
   scan[1].covariance = Eigen::Matrix2d::Constant(NAN);
   scan[2].covariance = Eigen::Matrix2d::Constant(INFINITY);

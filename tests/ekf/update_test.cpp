@@ -11,7 +11,7 @@
 #include "support/poses.hpp"
 #include "waymark/core/random.hpp"
 
-#include "random_sightings.hpp"
+#include "random_observations.hpp"
 
 namespace waymark::ekf {
 namespace {
@@ -29,15 +29,16 @@ class UpdateTest : public testing::Test {
     for (std::size_t i = 0; i < kSize; ++i)
       for (std::size_t j = i; j < kSize; ++j)
         P_.row(i)[j] = before_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    for (const int landmark : {0, 3, 1}) sightings_.push_back(test::random_sighting(random_, landmark, 2, 1));
-    sightings_[0].rows = 2;
-    sightings_[1].rows = 1;
-    for (const Sighting& s : sightings_) rows_ += s.rows;
+    for (const int landmark : {0, 3, 1})
+      linearizations_.push_back(test::random_observation(random_, landmark, 2, 1));
+    linearizations_[0].rows = 2;
+    linearizations_[1].rows = 1;
+    for (const LinearizedObservation& s : linearizations_) rows_ += s.rows;
     H_.resize(rows_, kSize);
     R_.setZero(rows_, rows_);
     nu_.resize(rows_);
     int row = 0;
-    for (const Sighting& s : sightings_) {
+    for (const LinearizedObservation& s : linearizations_) {
       H_.middleRows(row, s.rows) = test::dense(layout_.touched(s, s.rows), kSize);
       R_.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows);
       nu_.segment(row, s.rows) = s.nu.head(s.rows);
@@ -59,14 +60,14 @@ class UpdateTest : public testing::Test {
   Eigen::MatrixXd before_;
   Covariance P_;
   Update update_;
-  std::vector<Sighting> sightings_;
+  std::vector<LinearizedObservation> linearizations_;
   int rows_ = 0;
   Eigen::MatrixXd H_, R_, S_, K_;
   Eigen::VectorXd nu_;
 };
 
 TEST_F(UpdateTest, IsThatOfTheArticle) {
-  ASSERT_TRUE(update_.propose(P_, layout_, sightings_));
+  ASSERT_TRUE(update_.propose(P_, layout_, linearizations_));
   EXPECT_TRUE(matrix_near(dx(), Eigen::VectorXd(K_ * nu_), 1e-11));
   EXPECT_EQ(now(), before_);
   update_.correct(P_, nullptr);
@@ -74,7 +75,7 @@ TEST_F(UpdateTest, IsThatOfTheArticle) {
 }
 
 TEST_F(UpdateTest, TellsWhatItDid) {
-  ASSERT_TRUE(update_.propose(P_, layout_, sightings_));
+  ASSERT_TRUE(update_.propose(P_, layout_, linearizations_));
   update_.correct(P_, nullptr);
   const Gain gain = update_.gain();
   ASSERT_EQ(static_cast<int>(gain.rows), rows_);
@@ -88,16 +89,16 @@ TEST_F(UpdateTest, TellsWhatItDid) {
   EXPECT_EQ(gain.turn, dx()[2]);
 }
 
-TEST_F(UpdateTest, TellsHowAllSightingsGoTogether) {
+TEST_F(UpdateTest, TellsHowAllObservationsGoTogether) {
   const Eigen::MatrixXd S =
-      update_.joint_innovation_covariance(P_, layout_, sightings_).triangularView<Eigen::Lower>();
+      update_.joint_innovation_covariance(P_, layout_, linearizations_).triangularView<Eigen::Lower>();
   EXPECT_TRUE(matrix_near(S, Eigen::MatrixXd(S_.triangularView<Eigen::Lower>()), 1e-11));
 }
 
 TEST_F(UpdateTest, LeavesAloneWhatIsOnlyConsidered) {
   constexpr int kHead = 5;
   update_.consider_all_from(kHead);
-  ASSERT_TRUE(update_.propose(P_, layout_, sightings_));
+  ASSERT_TRUE(update_.propose(P_, layout_, linearizations_));
   update_.correct(P_, nullptr);
   Eigen::MatrixXd K = K_;
   K.bottomRows(kSize - kHead).setZero();
@@ -109,7 +110,7 @@ TEST_F(UpdateTest, LeavesAloneWhatIsOnlyConsidered) {
 
 TEST_F(UpdateTest, AllocatesNothing) {
   const test::AllocationCount count;
-  ASSERT_TRUE(update_.propose(P_, layout_, sightings_));
+  ASSERT_TRUE(update_.propose(P_, layout_, linearizations_));
   update_.correct(P_, nullptr);
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -84,10 +84,10 @@ TEST(MatchNearest, IsOneToOneAndNearestFirst) {
 
 TEST(ResolveNames, TrustsMarkersAndBarcodesOnly) {
   const auto named = map_of(kSurvey, {});
-  const auto unnamed = map_of(kSurvey, {}, LandmarkId::Family::kNone);
+  const auto without_identity = map_of(kSurvey, {}, LandmarkId::Family::kNone);
   EXPECT_EQ(resolve_names(LandmarkNames::kAuto, named, kSurvey), LandmarkNames::kKnown);
-  EXPECT_EQ(resolve_names(LandmarkNames::kAuto, unnamed, kSurvey), LandmarkNames::kUnknown);
-  EXPECT_EQ(resolve_names(LandmarkNames::kKnown, unnamed, kSurvey), LandmarkNames::kKnown);
+  EXPECT_EQ(resolve_names(LandmarkNames::kAuto, without_identity, kSurvey), LandmarkNames::kUnknown);
+  EXPECT_EQ(resolve_names(LandmarkNames::kKnown, without_identity, kSurvey), LandmarkNames::kKnown);
 }
 
 TEST(MapError, NeesTurnsTheCovarianceAndSkipsSingularOnes) {

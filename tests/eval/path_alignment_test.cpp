@@ -21,7 +21,7 @@ TruthTrack truth_of(const Trajectory& path, bool with_heading = true) {
   return TruthTrack(samples);
 }
 
-TEST(Anchor, UndoesAnyFrameByTheFirstHeading) {
+TEST(StartAlignment, UndoesAnyFrameByTheFirstHeading) {
   RandomStream random = random_stream(8);
   for (int i = 0; i < 20; ++i) {
     const Trajectory path = moved(random_pose(random), wavy_path(50));
@@ -33,7 +33,7 @@ TEST(Anchor, UndoesAnyFrameByTheFirstHeading) {
   }
 }
 
-TEST(Anchor, RestsOnTheFirstMetreWithoutHeading) {
+TEST(StartAlignment, RestsOnTheFirstMetreWithoutHeading) {
   RandomStream random = random_stream(9);
   const Trajectory path = wavy_path(50);
   const Pose2 T = random_pose(random);
@@ -43,7 +43,7 @@ TEST(Anchor, RestsOnTheFirstMetreWithoutHeading) {
   EXPECT_LT(difference(anchor->T_truth_estimate, T).norm(), 1e-9);
 }
 
-TEST(Anchor, TakesFramesAsParallelWhenNothingElseIsKnown) {
+TEST(StartAlignment, TakesFramesAsParallelWhenNothingElseIsKnown) {
   const Trajectory path = wavy_path(5);
   const auto anchor = anchor_at_start(associate(moved({3.0, 4.0, 0.0}, path), truth_of(path, false)));
   ASSERT_TRUE(anchor);

@@ -135,27 +135,27 @@ TEST(Describe, SaysAnExchangeOnce) {
               testing::ElementsAre(testing::HasSubstr("landmarks 11 and 17 look exchanged")));
 }
 
-/// Sightings of all landmarks from a robot that drives about, with one in ten grossly wrong.
-std::vector<Sighting> sightings_from(const Trajectory& path, const Eigen::Vector2d& sensor_m) {
+/// Observations of all landmarks from a robot that drives about, with one in ten grossly wrong.
+std::vector<PositionObservation> observations_from(const Trajectory& path, const Eigen::Vector2d& sensor_m) {
   RandomStream random = random_stream(20);
-  std::vector<Sighting> sightings;
+  std::vector<PositionObservation> landmark_observations;
   for (const TrajectoryPoint& point : path) {
     for (const TrueLandmark& landmark : kMrclam1) {
       const Pose2 T_robot_world = (point.pose * Pose2{-sensor_m.x(), -sensor_m.y(), 0.0}).inverse();
       Eigen::Vector2d p = T_robot_world * Eigen::Vector2d(landmark.x_m, landmark.y_m);
       p += 0.1 * Eigen::Vector2d(random.normal(), random.normal());
       if (random.uniform() < 0.1) p += Eigen::Vector2d(5.0, 5.0);
-      sightings.push_back({point.stamp, landmark.id, p});
+      landmark_observations.push_back({point.stamp, landmark.id, p});
     }
   }
-  return sightings;
+  return landmark_observations;
 }
 
-TEST(PlaceSightings, FindsWhereLandmarksAreFromTruePoses) {
+TEST(PlaceObservations, FindsWhereLandmarksAreFromTruePoses) {
   const Trajectory path = test::wavy_path(300);  // of the truth sensor
   const Eigen::Vector2d sensor_m(0.4, -0.2);
   const auto map =
-      place_sightings(sightings_from(path, sensor_m), TruthTrack::from_trajectory(path), sensor_m);
+      place_observations(observations_from(path, sensor_m), TruthTrack::from_trajectory(path), sensor_m);
   ASSERT_EQ(map.size(), kMrclam1.size());
   EXPECT_EQ(map[0].observations, 300);
   for (const auto [i, j] : match_by_number(map, kMrclam1)) {
@@ -165,14 +165,15 @@ TEST(PlaceSightings, FindsWhereLandmarksAreFromTruePoses) {
   EXPECT_THAT(numbers(find_oddities(map, exchanged(kMrclam1, 11, 17), {})), testing::ElementsAre(11, 17));
 }
 
-TEST(PlaceSightings, LeavesOutWhatHasNoTruePose) {
+TEST(PlaceObservations, LeavesOutWhatHasNoTruePose) {
   const Trajectory path = test::wavy_path(8);
-  const auto sightings = sightings_from(path, {0, 0});
+  const auto landmark_observations = observations_from(path, {0, 0});
   const TruthTrack no_headings({test::truth_at(0, 0, 0), test::truth_at(0.1, 0, 0)});
-  EXPECT_TRUE(place_sightings(sightings, no_headings).empty());
-  EXPECT_TRUE(place_sightings(sightings, TruthTrack()).empty());
+  EXPECT_TRUE(place_observations(landmark_observations, no_headings).empty());
+  EXPECT_TRUE(place_observations(landmark_observations, TruthTrack()).empty());
   const TruthTrack four_poses = TruthTrack::from_trajectory({path.begin(), path.begin() + 4});
-  EXPECT_TRUE(place_sightings(sightings, four_poses).empty()) << "four sightings each are too few";
+  EXPECT_TRUE(place_observations(landmark_observations, four_poses).empty())
+      << "four observations each are too few";
 }
 
 }  // namespace

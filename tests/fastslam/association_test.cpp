@@ -10,7 +10,7 @@
 namespace waymark::fastslam {
 namespace {
 
-constexpr int kNothing = ExclusiveMatch::kNothing;
+constexpr int kNothing = GreedyMatch::kNothing;
 constexpr int kCloud = 300;
 constexpr LandmarkSensor kHalfPlane{.max_range_m = 10.0, .field_of_view_deg = 180.0};
 
@@ -28,14 +28,14 @@ class AssociationTest : public testing::Test {
   static float log_likelihood(const Association::Choice& choice, double score) {
     return static_cast<float>(score - choice.log_odds + choice.log_others);
   }
-  void offer(int sighting, int landmark, double even_score, double odd_score) {
-    Association::Choice* const choice = association_.offer(sighting, landmark, 3.0, 0.9);
+  void offer(int observation, int landmark, double even_score, double odd_score) {
+    Association::Choice* const choice = association_.offer(observation, landmark, 3.0, 0.9);
     for (int i = 0; i < kCloud; ++i)
       choice->column[i] = log_likelihood(*choice, i % 2 == 0 ? even_score : odd_score);
   }
-  [[nodiscard]] int chosen(int sighting, int particle) const {
+  [[nodiscard]] int chosen(int observation, int particle) const {
     for (const Association::Choice& choice : association_.choices())
-      if (choice.sighting == sighting && choice.column[particle] == 1.0F) return choice.landmark;
+      if (choice.observation == observation && choice.column[particle] == 1.0F) return choice.landmark;
     return -2;
   }
 

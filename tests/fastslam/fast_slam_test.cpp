@@ -45,7 +45,7 @@ void drive_named(FastSlam& filter, CircleWorld& world, int steps) {
   }
 }
 
-/// What is left of a sighting by range and bearing.
+/// What is left of an observation by range and bearing.
 enum class Seen { kRangeAndBearing, kRange, kBearing };
 
 Observation keep(Seen seen, Observation observation) {
@@ -88,13 +88,13 @@ double dead_reckoning_error_m(std::uint64_t seed, int steps) {
 }
 
 /// N_eff after a drive in which one landmark is seen at the start and at the end, or all the time.
-double effective_after_drive(std::uint64_t seed, bool watching, int steps, double evidence_way_m) {
+double effective_after_drive(std::uint64_t seed, bool watching, int steps, double information_distance_m) {
   test::CircleWorld world(seed);
   FastSlamOptions options = with_particles(50);
   options.resample_below = 0.0;
   options.temper_below = 0.0;
-  options.move_above = 1e9;
-  options.evidence_way_m = evidence_way_m;
+  options.enkf_above = 1e9;
+  options.information_distance_m = information_distance_m;
   options.proposal = ProposalKind::kMotion;
   FastSlam filter(seeded(options, seed), world.sensor());
   const Observation first = world.sight(0);
@@ -107,20 +107,20 @@ double effective_after_drive(std::uint64_t seed, bool watching, int steps, doubl
   return fastslam::effective_particles(filter.particles().weights());
 }
 
-double mean_effective_after_drive(bool watching, int steps, double evidence_way_m) {
+double mean_effective_after_drive(bool watching, int steps, double information_distance_m) {
   constexpr int kRuns = 20;
   double mean = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed)
-    mean += effective_after_drive(seed, watching, steps, evidence_way_m) / kRuns;
+    mean += effective_after_drive(seed, watching, steps, information_distance_m) / kRuns;
   return mean;
 }
 
 /// Weights fall with the way, not with the number of frames: 20 steps are 2 m.
-TEST(FastSlam, ALandmarkUnderWatchWeighsParticlesByTheWayNotByEachFrame) {
+TEST(FastSlam, ALandmarkUnderWatchWeighsParticlesByDistanceTravelledNotByEachFrame) {
   EXPECT_GT(mean_effective_after_drive(true, 20, 1.0), 5.0 * mean_effective_after_drive(true, 20, 0.0));
 }
 
-TEST(FastSlam, ALandmarkThatComesBackAfterALongWayWeighsParticlesInFull) {
+TEST(FastSlam, ALandmarkThatComesBackAfterALongDistanceWeighsParticlesInFull) {
   const double in_full = mean_effective_after_drive(false, 100, 0.0);
   EXPECT_LT(in_full, 25.0);  // of 50
   EXPECT_NEAR(mean_effective_after_drive(false, 100, 1.0), in_full, 0.01 * in_full);
@@ -148,7 +148,7 @@ TEST(FastSlam, FollowsTheTruthWhereDeadReckoningDoesNot) {
   EXPECT_GT(blind_m, 3.0 * error_m);
 }
 
-TEST(FastSlam, AddsEachLandmarkOnceAndCountsItsSightings) {
+TEST(FastSlam, AddsEachLandmarkOnceAndCountsItsObservations) {
   CircleWorld world(1);
   FastSlam filter({}, world.sensor());
   EXPECT_EQ(filter.correct(world.look()).count(Outcome::kAdded), 8);
@@ -165,7 +165,7 @@ TEST(FastSlam, WeightsAreTheLikelihoodsOfTheScan) {
   options.temper_below = 0.0;
   options.noise_inflation = 1.0;
   options.proposal = ProposalKind::kMotion;
-  options.evidence_way_m = 0.0;
+  options.information_distance_m = 0.0;
   FastSlam filter(seeded(options, 3), world.sensor());
   filter.correct(std::vector<Observation>{world.sight(0), world.sight(1)});
   const auto landmarks =
@@ -194,7 +194,7 @@ TEST(FastSlam, WeightsAreTheLikelihoodsOfTheScan) {
     EXPECT_NEAR(filter.particles().weights()[i], expected[i] / total, 1e-5);
 }
 
-TEST(FastSlam, PoseFollowsTheMotionBetweenSightings) {
+TEST(FastSlam, PoseFollowsTheMotionBetweenObservations) {
   CircleWorld world(3);
   FastSlam filter({}, world.sensor());
   drive_named(filter, world, 20);
@@ -270,7 +270,7 @@ TEST(FastSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   EXPECT_EQ(filter.snapshot().landmarks[4].observations, landmark_before.observations);
 }
 
-TEST(FastSlam, GatesASightingInTheOppositeDirection) {
+TEST(FastSlam, GatesAnObservationInTheOppositeDirection) {
   CircleWorld world(6);
   FastSlam filter({}, world.sensor());
   drive_named(filter, world, 50);
@@ -335,12 +335,12 @@ TEST(FastSlam, AnAbsurdObservationThatIsNotGatedLeavesTheSetAlive) {
 
 /// Where the gate lets all pass: what no float can tell is not used, what one can just tell does no harm.
 TEST(FastSlam, RecoversFromLikelihoodsThatNoParticleCanHave) {
-  for (const ProposalKind proposal : {ProposalKind::kMotion, ProposalKind::kSightings})
+  for (const ProposalKind proposal : {ProposalKind::kMotion, ProposalKind::kObservations})
     for (const double range_m : {1e10, 1e20, 1e38}) {
       CircleWorld world(9);
       FastSlamOptions options;
       options.proposal = proposal;
-      options.evidence_way_m = 0.0;
+      options.information_distance_m = 0.0;
       options.gate = {.probability = 1.0};
       FastSlam filter(options, world.sensor());
       drive_named(filter, world, 20);
@@ -371,7 +371,7 @@ TEST(FastSlam, StartsFromTheGivenBelief) {
   EXPECT_TRUE(matrix_near(cloud.covariance, start.covariance, 0.002));
 }
 
-TEST(FastSlam, TellsHowLikelyASightingWas) {
+TEST(FastSlam, TellsHowLikelyAnObservationWas) {
   CircleWorld world(4);
   FastSlam filter(with_particles(1), world.sensor());
   const Observation first = world.sight(0);
@@ -417,12 +417,12 @@ TEST_P(FastSlamSeeing, SameSeedSameBitsOnAnyNumberOfThreads) {
   EXPECT_NE(one.T_world_robot, other_seed.T_world_robot);
 }
 
-/// Whether what it sees brings no news, or all counts in full so that there is something to resample.
+/// Whether what it sees brings no information, or all counts in full so that there is something to resample.
 TEST_P(FastSlamSeeing, AStandingRobotIsNeitherMovedNorResampled) {
-  for (const double evidence_way_m : {1.0, 0.0}) {
+  for (const double information_distance_m : {1.0, 0.0}) {
     CircleWorld world(4);
     FastSlamOptions options;
-    options.evidence_way_m = evidence_way_m;
+    options.information_distance_m = information_distance_m;
     FastSlam filter(options, world.sensor());
     drive_named(filter, world, 20, GetParam());
     const auto resamplings = filter.resamplings();

@@ -11,7 +11,7 @@
 namespace waymark::fastslam {
 namespace {
 
-using kernels::SightingKind;
+using kernels::ObservationKind;
 using test::matrix_near;
 
 /// Particles spread about (x_m, y_m), all of which know a point 4 m ahead exactly.
@@ -28,13 +28,13 @@ class GateSampleTest : public testing::Test {
     }
   }
 
-  [[nodiscard]] InnovationMoments compare(SightingKind kind, float bearing_rad) {
-    const kernels::Sighting sighting{
+  [[nodiscard]] InnovationMoments compare(ObservationKind kind, float bearing_rad) {
+    const kernels::LandmarkObservation observation{
         {kind, 3.0F, std::cos(bearing_rad), std::sin(bearing_rad), 0.01F, 0.0F, 0.04F},
         {},
         store_.view(0, {1e5, 1e5})};
     sample_.load(particles_, {1e5, 1e5});
-    return sample_.compare(sighting, {});
+    return sample_.compare(observation, {});
   }
 
   ParticleBlocks blocks_{kCount};
@@ -48,23 +48,23 @@ constexpr double kMeanRange_m = 4.0 - 0.4995;
 constexpr double kRangeVariance = (1e6 - 1.0) / 12.0 * 1e-6;
 
 TEST_F(GateSampleTest, AddsTheSpreadOfTheSetToTheNoise) {
-  const auto both = compare(SightingKind::kRangeBearing, 0.1F);
+  const auto both = compare(ObservationKind::kRangeBearing, 0.1F);
   EXPECT_TRUE(matrix_near(both.mean, Eigen::Vector2d(3.0 - kMeanRange_m, 0.1), 1e-5));
   EXPECT_NEAR(both.covariance()(0, 0), 0.01 + kRangeVariance, 1e-5);
   EXPECT_NEAR(both.covariance()(1, 1), 0.04, 1e-5);
   EXPECT_NEAR(both.spread(0, 0), kRangeVariance, 1e-5);
   EXPECT_NEAR(both.noise(0, 0), 0.01, 1e-6);
-  const auto range = compare(SightingKind::kRange, 0.0F);
+  const auto range = compare(ObservationKind::kRange, 0.0F);
   EXPECT_NEAR(range.mean[0], 3.0 - kMeanRange_m, 1e-5);
   EXPECT_NEAR(range.covariance()(0, 0), 0.01 + kRangeVariance, 1e-5);
-  const auto bearing = compare(SightingKind::kBearing, 0.1F);
+  const auto bearing = compare(ObservationKind::kBearing, 0.1F);
   EXPECT_NEAR(bearing.mean[0], 0.1, 1e-5);
   EXPECT_NEAR(bearing.covariance()(0, 0), 0.04, 1e-5);
 }
 
 TEST_F(GateSampleTest, BearingsJustOnEitherSideOfBackwardsDoNotCancel) {
   for (int i = 0; i < kCount; ++i) particles_.set_pose(i, {1e5, 1e5, i % 2 == 0 ? 0.01 : -0.01});
-  const auto moments = compare(SightingKind::kBearing, static_cast<float>(kPi));
+  const auto moments = compare(ObservationKind::kBearing, static_cast<float>(kPi));
   EXPECT_GT(std::abs(moments.mean[0]), 3.1);
   EXPECT_NEAR(moments.covariance()(0, 0), 0.04 + 1e-4, 1e-5);
 }
@@ -74,14 +74,14 @@ TEST_F(GateSampleTest, DeadParticlesDoNotCountWhateverTheySee) {
     particles_.weights()[static_cast<std::size_t>(i)] = 0.0;
     particles_.set_pose(i, {std::nan(""), 0.0, 0.0});
   }
-  const auto moments = compare(SightingKind::kRange, 0.0F);
+  const auto moments = compare(ObservationKind::kRange, 0.0F);
   EXPECT_NEAR(moments.mean[0], 3.0 - 4.0, 1e-5);
   EXPECT_NEAR(moments.covariance()(0, 0), 0.01, 1e-5);
 }
 
 TEST_F(GateSampleTest, IsNotFiniteWhereALivingParticleIsNot) {
   particles_.set_pose(500, {std::nan(""), 0.0, 0.0});
-  EXPECT_FALSE(compare(SightingKind::kRange, 0.0F).covariance().allFinite());
+  EXPECT_FALSE(compare(ObservationKind::kRange, 0.0F).covariance().allFinite());
 }
 
 }  // namespace

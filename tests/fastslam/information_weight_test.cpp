@@ -24,12 +24,12 @@ TEST(InformationWeight, WithoutAWayEveryObservationCountsInFull) {
 /// The variance of the mean of n errors of unit variance, each correlated by rho with the one before, is that
 /// of n independent ones times (1 + rho) / (1 - rho), for many.
 TEST(InformationWeight, ErrorsThatLastCountAsTheMeanOfARunOfThemSays) {
-  for (const double way_m : {0.05, 0.3, 2.0}) {
-    const double rho = std::exp(-way_m / 0.3);
-    EXPECT_NEAR(lasting_variance_factor(way_m, 0.3), (1.0 + rho) / (1.0 - rho), 1e-9);
+  for (const double travelled_m : {0.05, 0.3, 2.0}) {
+    const double rho = std::exp(-travelled_m / 0.3);
+    EXPECT_NEAR(bias_variance_factor(travelled_m, 0.3), (1.0 + rho) / (1.0 - rho), 1e-9);
   }
-  EXPECT_EQ(lasting_variance_factor(kFar_m, 0.3), 1.0);
-  EXPECT_EQ(lasting_variance_factor(0.0, 0.3), lasting_variance_factor(kLeastWay_m, 0.3));
+  EXPECT_EQ(bias_variance_factor(kFar_m, 0.3), 1.0);
+  EXPECT_EQ(bias_variance_factor(0.0, 0.3), bias_variance_factor(kMinTravelled_m, 0.3));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 using kernels::kDeadMode;
 using kernels::LandmarkForm;
-using kernels::SeenLandmark;
-using kernels::SightingKind;
+using kernels::LandmarkMeasurement;
+using kernels::ObservationKind;
 using test::matrix_near;
 
 constexpr int kCount = 300;
@@ -52,14 +52,14 @@ double density(const FirstForm& first, double value) {
   return sum;
 }
 
-SeenLandmark bearing_ahead() {
-  SeenLandmark seen{SightingKind::kBearing};
+LandmarkMeasurement bearing_ahead() {
+  LandmarkMeasurement seen{ObservationKind::kBearing};
   seen.R_bb = 1e-4F;
   return seen;
 }
 
-SeenLandmark range_of(float range_m) {
-  SeenLandmark seen{SightingKind::kRange, range_m};
+LandmarkMeasurement range_of(float range_m) {
+  LandmarkMeasurement seen{ObservationKind::kRange, range_m};
   seen.R_rr = 0.0025F;
   return seen;
 }
@@ -144,7 +144,7 @@ TEST(FirstForm, DirectionsCountFromTheSensorsAxis) {
 }
 
 TEST(FirstForm, HypothesesAreBounded) {
-  SeenLandmark seen = range_of(1000.0F);
+  LandmarkMeasurement seen = range_of(1000.0F);
   seen.R_rr = 1e-6F;
   EXPECT_EQ(first_form(seen, {}, ViewHistory({})).modes, kernels::kMaxModes);
   const LandmarkSensor far{.min_range_m = 0.0, .max_range_m = 1e6};
@@ -152,7 +152,7 @@ TEST(FirstForm, HypothesesAreBounded) {
   LandmarkSensor blind = kSensor;
   blind.field_of_view_deg = 0.0;
   blind.max_range_m = 0.0;
-  for (const SeenLandmark& each : {range_of(0.1F), bearing_ahead()}) {
+  for (const LandmarkMeasurement& each : {range_of(0.1F), bearing_ahead()}) {
     const FirstForm first = first_form(each, blind, ViewHistory(blind));
     ASSERT_GE(first.modes, 1U);
     EXPECT_TRUE(std::isfinite(mixture_of(first).mean));
@@ -161,15 +161,15 @@ TEST(FirstForm, HypothesesAreBounded) {
 }
 
 TEST(CanTake, PointsTakeAllOthersTheirOwn) {
-  for (const SightingKind kind :
-       {SightingKind::kRangeBearing, SightingKind::kRange, SightingKind::kBearing}) {
+  for (const ObservationKind kind :
+       {ObservationKind::kRangeBearing, ObservationKind::kRange, ObservationKind::kBearing}) {
     EXPECT_TRUE(can_take(LandmarkForm::kPoint, kind));
-    EXPECT_EQ(can_take(LandmarkForm::kRay, kind), kind == SightingKind::kBearing);
-    EXPECT_EQ(can_take(LandmarkForm::kRing, kind), kind == SightingKind::kRange);
+    EXPECT_EQ(can_take(LandmarkForm::kRay, kind), kind == ObservationKind::kBearing);
+    EXPECT_EQ(can_take(LandmarkForm::kRing, kind), kind == ObservationKind::kRange);
   }
-  EXPECT_TRUE(can_take(LandmarkForm::kPoint, SightingKind::kViewEdge));
-  EXPECT_TRUE(can_take(LandmarkForm::kRing, SightingKind::kViewEdge));
-  EXPECT_FALSE(can_take(LandmarkForm::kRay, SightingKind::kViewEdge));
+  EXPECT_TRUE(can_take(LandmarkForm::kPoint, ObservationKind::kViewEdge));
+  EXPECT_TRUE(can_take(LandmarkForm::kRing, ObservationKind::kViewEdge));
+  EXPECT_FALSE(can_take(LandmarkForm::kRay, ObservationKind::kViewEdge));
 }
 
 /// One landmark of many particles, whose numbers are written by the test.
@@ -289,13 +289,13 @@ TEST_F(LandmarkFormsTest, ARayBecomesAPointWhenItsDepthIsLinearFromTheSensor) {
 }
 
 /// The report's way: on the arc within the field of view, or on the ray within the range.
-TEST_F(LandmarkFormsTest, GuessesLieWhereTheSightingAllows) {
+TEST_F(LandmarkFormsTest, GuessesLieWhereTheObservationAllows) {
   landmark_ = store_.add(LandmarkForm::kPoint, {5.0, 5.0});
   LandmarkSensor sensor = kSensor;
   sensor.yaw_deg = 30.0;
-  for (const SightingKind kind : {SightingKind::kRange, SightingKind::kBearing}) {
-    const double bearing = kind == SightingKind::kBearing ? 0.2 : 0.0;
-    SeenLandmark seen{kind, 4.0F};
+  for (const ObservationKind kind : {ObservationKind::kRange, ObservationKind::kBearing}) {
+    const double bearing = kind == ObservationKind::kBearing ? 0.2 : 0.0;
+    LandmarkMeasurement seen{kind, 4.0F};
     seen.cos_bearing = static_cast<float>(std::cos(bearing + to_radians(30.0)));
     seen.sin_bearing = static_cast<float>(std::sin(bearing + to_radians(30.0)));
     place_by_guess(store_, landmark_, seen, sensor, particles_, {1, StreamPurpose::kInitialisation, 1},
@@ -305,14 +305,14 @@ TEST_F(LandmarkFormsTest, GuessesLieWhereTheSightingAllows) {
     for (int i = 0; i < kCount; ++i) {
       const Eigen::Vector2d d = store_.at(landmark_, i).mean - Eigen::Vector2d(5.0, 5.0);
       const double direction = std::atan2(d.y(), d.x()) - to_radians(30.0);
-      const double drawn = kind == SightingKind::kRange ? direction : d.norm();
+      const double drawn = kind == ObservationKind::kRange ? direction : d.norm();
       low = std::min(low, drawn);
       high = std::max(high, drawn);
-      EXPECT_NEAR(kind == SightingKind::kRange ? d.norm() : direction,
-                  kind == SightingKind::kRange ? 4.0 : 0.2, 1e-5);
+      EXPECT_NEAR(kind == ObservationKind::kRange ? d.norm() : direction,
+                  kind == ObservationKind::kRange ? 4.0 : 0.2, 1e-5);
     }
-    const double from = kind == SightingKind::kRange ? -0.25 * kPi : 0.5;
-    const double to = kind == SightingKind::kRange ? 0.25 * kPi : 10.0;
+    const double from = kind == ObservationKind::kRange ? -0.25 * kPi : 0.5;
+    const double to = kind == ObservationKind::kRange ? 0.25 * kPi : 10.0;
     EXPECT_GE(low, from - 1e-5);
     EXPECT_LE(high, to + 1e-5);
     EXPECT_GT(high - low, 0.95 * (to - from));

@@ -87,11 +87,11 @@ TEST_F(MapManagementTest, ForgetsWhatNoParticleBelievesInAndWhatASingleObservati
   belief_.landmarks.existence(0).confirm();
   belief_.records[0].existence = 0.0;
   next_scan();
-  map_.forget_ghosts(belief_);
+  map_.delete_false_tracks(belief_);
   ASSERT_EQ(belief_.landmarks.size(), 2);
   EXPECT_EQ(belief_.landmarks.removed().size(), 1U);
-  belief_.landmarks.travel(2.0 * kTentativeWay_m);
-  map_.forget_ghosts(belief_);
+  belief_.landmarks.travel(2.0 * kTentativeDistance_m);
+  map_.delete_false_tracks(belief_);
   ASSERT_EQ(belief_.landmarks.size(), 1);
   EXPECT_NE(belief_.landmarks[0].id, tentative);
   // The ring that took the index of others is still one whose hypotheses can be missed.

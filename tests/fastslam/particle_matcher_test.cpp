@@ -8,8 +8,8 @@
 
 #include "support/allocation_counter.hpp"
 #include "support/circle_world.hpp"
-#include "support/unnamed_filter_suite.hpp"
-#include "support/unnamed_sightings.hpp"
+#include "support/unknown_identity_observations.hpp"
+#include "support/unknown_identity_suite.hpp"
 #include "waymark/fastslam/fast_slam.hpp"
 
 #include "known_map.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 using test::CircleWorld;
 using test::drive;
-using test::unnamed;
+using test::without_identity;
 
 FastSlam make_filter(const CircleWorld& world, int particles = 100, int threads = 1) {
   FastSlamOptions options;
@@ -41,26 +41,26 @@ struct Particles {
 }  // namespace
 
 namespace test {
-INSTANTIATE_TYPED_TEST_SUITE_P(FastSlam, UnnamedFilter, Particles);
+INSTANTIATE_TYPED_TEST_SUITE_P(FastSlam, UnknownIdentityFilter, Particles);
 }  // namespace test
 
 namespace {
 
-TEST(FastSlamUnnamed, WithoutAssociationNothingUnnamedIsUsed) {
+TEST(FastSlamUnknownIdentity, WithoutAssociationNothingOfUnknownIdentityIsUsed) {
   CircleWorld world(1);
   FastSlam filter({}, world.sensor());
-  const Correction& correction = filter.correct(unnamed(world.look()));
+  const Correction& correction = filter.correct(without_identity(world.look()));
   EXPECT_EQ(correction.count(Outcome::kUnidentified), 8);
 }
 
-TEST(FastSlamUnnamed, TwoSightingsOfOneLandmarkSplitTheParticles) {
+TEST(FastSlamUnknownIdentity, TwoObservationsOfOneLandmarkSplitTheParticles) {
   CircleWorld world(6);
   FastSlam filter = make_filter(world);
   drive(filter, world, 20);
   const std::size_t landmarks = filter.snapshot().landmarks.size();
   for (int i = 0; i < 20; ++i) {
     filter.predict(world.move());
-    auto scan = unnamed(world.look());
+    auto scan = without_identity(world.look());
     scan.push_back(scan.front());
     auto& z = std::get<RangeBearing>(scan.back().value);
     z.range_m += 0.05;
@@ -71,7 +71,7 @@ TEST(FastSlamUnnamed, TwoSightingsOfOneLandmarkSplitTheParticles) {
   EXPECT_EQ(filter.snapshot().landmarks.size(), landmarks);
 }
 
-TEST(FastSlamUnnamed, SameSeedSameBitsOnAnyNumberOfThreads) {
+TEST(FastSlamUnknownIdentity, SameSeedSameBitsOnAnyNumberOfThreads) {
   const auto run = [](int threads) {
     CircleWorld world(7);
     FastSlam filter = make_filter(world, 3000, threads);
@@ -85,7 +85,7 @@ TEST(FastSlamUnnamed, SameSeedSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(one.first, three.first);
 }
 
-TEST(FastSlamUnnamed, ASteadyStateStepOnTwoThreadsAllocatesNothing) {
+TEST(FastSlamUnknownIdentity, ASteadyStateStepOnTwoThreadsAllocatesNothing) {
   CircleWorld world(8);
   FastSlam filter = make_filter(world, 300, 2);
   drive(filter, world, 200);
@@ -133,7 +133,7 @@ class ParticleMatcherTest : public testing::Test {
 
 TEST_F(ParticleMatcherTest, TheSetDecidesWhatIsClear) {
   match({test::range_bearing(5.0, 0.5 * kPi), test::range_bearing(4.0, 0.0), test::range_bearing(8.0, -1.0)});
-  EXPECT_FALSE(matcher_.any_contested());
+  EXPECT_FALSE(matcher_.any_ambiguous());
   EXPECT_EQ(scan_.landmarks, (std::vector<int>{1, 0, Scan::kNone}));
   EXPECT_TRUE(scan_.is(0, Outcome::kMatched));
   EXPECT_TRUE(scan_.is(2, Outcome::kAdded));
@@ -147,14 +147,14 @@ TEST_F(ParticleMatcherTest, WhereThereIsNoRoomNothingIsNew) {
 
 TEST_F(ParticleMatcherTest, RangesAloneStayUnidentified) {
   match({test::range_alone(4.0)});
-  EXPECT_FALSE(matcher_.any_contested());
+  EXPECT_FALSE(matcher_.any_ambiguous());
   EXPECT_TRUE(scan_.is(0, Outcome::kUnidentified));
 }
 
 TEST_F(ParticleMatcherTest, ParticlesDecideOnTwoObservationsOfOneLandmark) {
   match({test::range_bearing(4.0, 0.0), test::range_bearing(4.02, 0.0)});
-  ASSERT_TRUE(matcher_.any_contested());
-  EXPECT_TRUE(matcher_.match_contested(scan_, gate_, 100, belief_).empty());
+  ASSERT_TRUE(matcher_.any_ambiguous());
+  EXPECT_TRUE(matcher_.match_ambiguous(scan_, gate_, 100, belief_).empty());
   update_.begin();
   matcher_.split(scan_, update_, belief_);
   EXPECT_GT(matcher_.splits(), 0);

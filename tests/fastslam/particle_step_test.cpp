@@ -15,7 +15,7 @@ namespace waymark::fastslam {
 namespace {
 
 using kernels::LandmarkForm;
-using kernels::SightingKind;
+using kernels::ObservationKind;
 using test::matrix_near;
 
 constexpr StreamKey kKey{9, StreamPurpose::kMotion, 4};
@@ -38,11 +38,11 @@ struct Scene {
     }
   }
 
-  [[nodiscard]] AcceptedSighting sighting(bool shapes_motion) const {
+  [[nodiscard]] AcceptedObservation observation(bool shapes_motion) const {
     const double direction = z.bearing_rad + kMount.theta_rad;
     const kernels::SensorMount mount{0.1F, -0.05F, static_cast<float>(std::cos(kMount.theta_rad)),
                                      static_cast<float>(std::sin(kMount.theta_rad))};
-    return {{{SightingKind::kRangeBearing, static_cast<float>(z.range_m),
+    return {{{ObservationKind::kRangeBearing, static_cast<float>(z.range_m),
               static_cast<float>(std::cos(direction)), static_cast<float>(std::sin(direction)),
               static_cast<float>(R(0, 0)), static_cast<float>(R(0, 1)), static_cast<float>(R(1, 1))},
              mount,
@@ -84,7 +84,7 @@ void expect_drawn_from(const Particles& set, ParticleBlocks& blocks, const Eigen
   EXPECT_TRUE(matrix_near(drawn.covariance, P, 5.0 * std::sqrt(2.0 / n) * variance));
 }
 
-TEST(Step, WithoutASightingDrawsFromTheMotion) {
+TEST(Step, WithoutAnObservationDrawsFromTheMotion) {
   constexpr int kCount = 200'000;
   RandomStream random(2, StreamPurpose::kWorld);
   Scene scene(kCount, 2);
@@ -104,13 +104,13 @@ TEST(Step, AMotionWithoutSpreadGoesExactlyThere) {
 }
 
 /// P = (Hx^T Z^-1 Hx + P0^-1)^-1, mu = mu0 + P Hx^T Z^-1 nu.
-TEST(Step, ASightingThatShapesTheMotionGivesTheInformationForm) {
+TEST(Step, AnObservationThatShapesTheMotionGivesTheInformationForm) {
   constexpr int kCount = 100'000;
   RandomStream random(6, StreamPurpose::kWorld);
   Scene scene(kCount);
   const Motion motion{{0.15, 0.0, 0.02}, test::random_covariance<3>(random, 1e-3)};
-  const auto sighting = scene.sighting(true);
-  step(scene.set, motion, {0.0, 0.0}, {&sighting, 1}, kKey, scene.blocks);
+  const auto observation = scene.observation(true);
+  step(scene.set, motion, {0.0, 0.0}, {&observation, 1}, kKey, scene.blocks);
 
   const PoseEstimate prior = propagate({kStart, Eigen::Matrix3d::Zero()}, motion);
   const auto [nu, Z, Hx] = scene.look(prior.T_world_robot);
@@ -122,11 +122,11 @@ TEST(Step, ASightingThatShapesTheMotionGivesTheInformationForm) {
     EXPECT_NEAR(scene.set.log_weights()[static_cast<std::size_t>(i)], expected, 1e-4 * std::abs(expected));
 }
 
-TEST(Step, OtherSightingsWeighParticlesWhereTheyWent) {
+TEST(Step, OtherObservationsWeighParticlesWhereTheyWent) {
   Scene scene(50);
   const Motion motion{{0.15, 0.0, 0.02}, 1e-3 * Eigen::Matrix3d::Identity()};
-  const auto sighting = scene.sighting(false);
-  step(scene.set, motion, {0.0, 0.0}, {&sighting, 1}, kKey, scene.blocks);
+  const auto observation = scene.observation(false);
+  step(scene.set, motion, {0.0, 0.0}, {&observation, 1}, kKey, scene.blocks);
   for (int i = 0; i < 50; ++i) {
     const auto look = scene.look(scene.set.pose(i));
     const double expected = log_normal(look.nu, look.Z);
@@ -138,8 +138,8 @@ TEST(Step, OtherSightingsWeighParticlesWhereTheyWent) {
 TEST(Step, ARobotThatStandsStillIsNotMovedAndWeighsTheSameEitherWay) {
   for (const bool shapes : {false, true}) {
     Scene scene(50);
-    const auto sighting = scene.sighting(shapes);
-    step(scene.set, {}, {0.0, 0.0}, {&sighting, 1}, kKey, scene.blocks);
+    const auto observation = scene.observation(shapes);
+    step(scene.set, {}, {0.0, 0.0}, {&observation, 1}, kKey, scene.blocks);
     const auto look = scene.look(kStart);
     const double expected = log_normal(look.nu, look.Z);
     for (int i = 0; i < 50; ++i) {
@@ -149,18 +149,18 @@ TEST(Step, ARobotThatStandsStillIsNotMovedAndWeighsTheSameEitherWay) {
   }
 }
 
-TEST(Step, HalfTheEvidenceIsHalfTheLogWeight) {
+TEST(Step, HalfTheExponentIsHalfTheLogWeight) {
   Scene whole(10);
   Scene half(10);
-  const auto sighting = whole.sighting(true);
-  auto weak = half.sighting(true);
-  weak.evidence = 0.5;
-  step(whole.set, {}, {0.0, 0.0}, {&sighting, 1}, kKey, whole.blocks);
+  const auto observation = whole.observation(true);
+  auto weak = half.observation(true);
+  weak.exponent = 0.5;
+  step(whole.set, {}, {0.0, 0.0}, {&observation, 1}, kKey, whole.blocks);
   step(half.set, {}, {0.0, 0.0}, {&weak, 1}, kKey, half.blocks);
   EXPECT_DOUBLE_EQ(half.set.log_weights()[3], 0.5 * whole.set.log_weights()[3]);
 }
 
-TEST(Step, ASightingIsForThoseThatTakeItAlone) {
+TEST(Step, AnObservationIsForThoseThatTakeItAlone) {
   constexpr int kCount = 300;
   std::vector<float> takers(kCount);
   for (int i = 0; i < kCount; i += 3) takers[static_cast<std::size_t>(i)] = 1.0F;
@@ -169,11 +169,11 @@ TEST(Step, ASightingIsForThoseThatTakeItAlone) {
     Scene nobody(kCount);
     Scene all(kCount);
     Scene some(kCount);
-    std::vector sightings{some.sighting(shapes)};
-    sightings[0].takers = takers.data();
+    std::vector observations{some.observation(shapes)};
+    observations[0].takers = takers.data();
     step(nobody.set, motion, {0.0, 0.0}, {}, kKey, nobody.blocks);
-    step(all.set, motion, {0.0, 0.0}, std::vector{all.sighting(shapes)}, kKey, all.blocks);
-    step(some.set, motion, {0.0, 0.0}, sightings, kKey, some.blocks);
+    step(all.set, motion, {0.0, 0.0}, std::vector{all.observation(shapes)}, kKey, all.blocks);
+    step(some.set, motion, {0.0, 0.0}, observations, kKey, some.blocks);
     for (int i = 0; i < kCount; ++i) {
       Scene& same = takers[static_cast<std::size_t>(i)] != 0.0F ? all : nobody;
       EXPECT_EQ(some.set.pose(i), same.set.pose(i)) << i;
@@ -190,8 +190,8 @@ TEST(Step, SameBitsOnAnyNumberOfThreads) {
   Scene three(5000, 3);
   const Motion motion{{0.15, 0.0, 0.02}, 1e-3 * Eigen::Matrix3d::Identity()};
   for (Scene* scene : {&one, &three}) {
-    const auto sighting = scene->sighting(true);
-    step(scene->set, motion, {0.0, 0.0}, {&sighting, 1}, kKey, scene->blocks);
+    const auto observation = scene->observation(true);
+    step(scene->set, motion, {0.0, 0.0}, {&observation, 1}, kKey, scene->blocks);
   }
   for (int i = 0; i < 5000; ++i) {
     EXPECT_EQ(one.set.pose(i), three.set.pose(i));

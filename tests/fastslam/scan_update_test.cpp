@@ -20,8 +20,9 @@ class ScanUpdateTest : public testing::Test {
 
   void accept(double power) {
     belief_.load_sample();
-    const kernels::Sighting sighting = model_.sighting(test::range_bearing(3.8, 0.0), 0, belief_);
-    update_.accept(sighting, 0, power, belief_.compare(sighting), belief_);
+    const kernels::LandmarkObservation observation =
+        model_.observation(test::range_bearing(3.8, 0.0), 0, belief_);
+    update_.accept(observation, 0, power, belief_.compare(observation), belief_);
   }
 
   Belief belief_{{.particles = 101}, {}, 1};
@@ -32,30 +33,30 @@ class ScanUpdateTest : public testing::Test {
 TEST_F(ScanUpdateTest, WhatParticlesDisagreeOnMovesThemAndDoesNotWeighThem) {
   belief_.landmarks.travel(1.0);
   accept(0.6);
-  EXPECT_EQ(update_.moves(), 1);
+  EXPECT_EQ(update_.enkf_updates(), 1);
   EXPECT_GT(belief_.particles.pose(50).x_m, 0.1);
   ASSERT_EQ(update_.accepted().size(), 1U);
-  EXPECT_EQ(update_.accepted()[0].evidence, 0.0);
+  EXPECT_EQ(update_.accepted()[0].exponent, 0.0);
 }
 
 TEST_F(ScanUpdateTest, ARobotThatHasStoodIsNotMoved) {
   accept(0.6);
-  EXPECT_EQ(update_.moves(), 0);
-  EXPECT_EQ(update_.accepted()[0].evidence, 0.6);
+  EXPECT_EQ(update_.enkf_updates(), 0);
+  EXPECT_EQ(update_.accepted()[0].exponent, 0.6);
 }
 
 TEST_F(ScanUpdateTest, WhatBringsHardlyAnyNewsMovesNothing) {
   belief_.landmarks.travel(1.0);
   accept(0.05);
-  EXPECT_EQ(update_.moves(), 0);
-  EXPECT_EQ(update_.accepted()[0].evidence, 0.05);
+  EXPECT_EQ(update_.enkf_updates(), 0);
+  EXPECT_EQ(update_.accepted()[0].exponent, 0.05);
 }
 
 TEST_F(ScanUpdateTest, WhatSomeParticlesTakeMovesNone) {
   belief_.landmarks.travel(1.0);
   const float takers[101] = {};
-  update_.accept_by(takers, model_.sighting(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
-  EXPECT_EQ(update_.moves(), 0);
+  update_.accept_by(takers, model_.observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
+  EXPECT_EQ(update_.enkf_updates(), 0);
   EXPECT_EQ(update_.accepted()[0].takers, takers);
   update_.begin();
   EXPECT_TRUE(update_.accepted().empty());
@@ -65,7 +66,7 @@ TEST_F(ScanUpdateTest, AnObservationShapesTheMotionInFastSlam2Alone) {
   accept(0.6);
   EXPECT_TRUE(update_.accepted()[0].shapes_motion);
   ScanUpdate first({.proposal = ProposalKind::kMotion}, belief_.blocks);
-  first.accept_by(nullptr, model_.sighting(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
+  first.accept_by(nullptr, model_.observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
   EXPECT_FALSE(first.accepted()[0].shapes_motion);
 }
 

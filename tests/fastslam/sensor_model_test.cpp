@@ -29,8 +29,8 @@ TEST(SensorModel, OnlyFiniteNumbersWithNoiseAreUsable) {
 
 TEST(SensorModel, CountsNoiseWithItsInflationAndTheLastingErrors) {
   LandmarkSensor sensor;
-  sensor.errors.lasting_range_sigma_ratio = 0.02;
-  sensor.errors.lasting_bearing_sigma_deg = to_degrees(0.01);
+  sensor.errors.bias_range_sigma_ratio = 0.02;
+  sensor.errors.bias_bearing_sigma_deg = to_degrees(0.01);
   const SensorModel model(sensor, 2.0);
   const auto first = model.seen(test::range_bearing(5.0, 0.0), kFirst_m, {});
   EXPECT_NEAR(first.R_rr, 4.0 * 0.01 + 0.1 * 0.1, 1e-7);

@@ -68,9 +68,9 @@ TEST_F(ViewEdgesTest, ALandmarkThatComesBackHasCrossedAnEdgeJustNow) {
   const auto found = scan(edges, {test::range_alone(4.0)});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].landmark, 0);
-  EXPECT_EQ(found[0].sighting.seen.kind, kernels::SightingKind::kViewEdge);
+  EXPECT_EQ(found[0].observation.seen.kind, kernels::ObservationKind::kViewEdge);
   // The sensor was half a step back.
-  EXPECT_NEAR(found[0].sighting.mount.sin_yaw, std::sin(-0.05), 1e-6);
+  EXPECT_NEAR(found[0].observation.mount.sin_yaw, std::sin(-0.05), 1e-6);
   EXPECT_TRUE(scan(edges, {test::range_alone(4.0)}).empty());
 }
 

@@ -50,7 +50,7 @@ TEST(SimulatedBoard, OfAFisheyeIsSeenAtItsAngle) {
   EXPECT_NEAR(seen[1].pixel.x(), camera.cu_px + camera.fu_px * std::atan(0.3), 1e-9);
 }
 
-TEST(SimulatedBoard, LiesInThePartOfThePictureThatIsAskedFor) {
+TEST(SimulatedBoard, LiesInThePartOfTheImageThatIsAskedFor) {
   for (const BoardCorners& corners : photograph_with({.farthest_m = 0.9, .part = 0.6}, {.noise_px = 0.0}))
     EXPECT_TRUE(std::ranges::all_of(corners, [](const BoardCorner& corner) {
       return corner.pixel.x() < 0.6 * 640.0 && corner.pixel.y() < 0.6 * 480.0;

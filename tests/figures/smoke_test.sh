@@ -116,12 +116,12 @@ test_markers() {
   within 'position RMSE, m: mean ' 1 0.001 0.2
   within 'markers, m: RMSE mean ' 1 0.0001 0.1
   within 'markers, m: RMSE mean ' 3 0 2  # missed
-  within 'CPU per picture of 640 x 480, detection to filter: ' 1 0.1 10000
+  within 'CPU per image of 640 x 480, detection to filter: ' 1 0.1 10000
 }
 
 test_budget() {
   prints --minutes 0.02 --seeds 1 --set sim.side_m=1.5
-  grep -qE '^3[67] pictures with 5 ms each by the clock' out.txt || fail 'not the pictures of 1.2 s'
+  grep -qE '^3[67] images with 5 ms each by the clock' out.txt || fail 'not the images of 1.2 s'
   for part in 1 0.5 0.2 0.1; do within "$part  " 3 0.001 1; done  # m
   within '1  ' 2 0 1  # left out, %
 }
@@ -155,8 +155,8 @@ test_loop() {
 test_desk() {
   needs monoslam-desk
   prints "$data/monoslam-desk" --frames 100 -o desk.svg
-  within '100 pictures, ' 1 50 5000  # patches
-  within 'found in the picture after: ' 1 80 100
+  within '100 images, ' 1 50 5000  # patches
+  within 'found in the image after: ' 1 80 100
   within 'FB4 match ' 1 1 100000
   grep -q '</svg>' desk.svg || fail 'no drawing'
 }
@@ -164,7 +164,7 @@ test_desk() {
 test_initialise() {
   needs monoslam-desk
   prints "$data/monoslam-desk" -o strips.svg
-  within 'pictures until then, median ' 2 0.3 3  # m
+  within 'images until then, median ' 2 0.3 3  # m
   grep -q '</svg>' strips.svg || fail 'no drawing'
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int kWidth = 200, kHeight = 120;
 
 // Squares and noise from a linear congruential generator (Knuth's MMIX), which is the same everywhere.
-std::vector<std::uint8_t> picture() {
+std::vector<std::uint8_t> frame() {
   std::uint64_t state = 1;
   const auto draw = [&state](std::uint64_t below) {
     state = state * 6364136223846793005U + 1442695040888963407U;
@@ -78,7 +78,7 @@ unsigned long long corners(const std::vector<std::uint8_t>& image) {
 }
 
 void print_line(const char* instruction_set) {
-  const std::vector<std::uint8_t> image = picture();
+  const std::vector<std::uint8_t> image = frame();
   std::printf("zmssd %016llx corners %016llx on %s\n", searches(image), corners(image), instruction_set);
 }
 

@@ -11,7 +11,7 @@ namespace {
 using test::ParticleScene;
 
 ParticleScene existence_scene(std::size_t count) {
-  return {count, LandmarkForm::kPoint, SightingKind::kRangeBearing, 1, 5};
+  return {count, LandmarkForm::kPoint, ObservationKind::kRangeBearing, 1, 5};
 }
 
 class ParticleExistence : public test::OnEveryInstructionSet {};
@@ -24,10 +24,10 @@ TEST_P(ParticleExistence, MissesAsTheScalarFormula) {
     float* const plain = scene.columns().add();
     for (std::size_t i = 0; i < count; ++i) fast[i] = plain[i] = static_cast<float>(i % 4);
     // The middle of the scene's landmarks lies on the edge.
-    View view{scene.sighting.mount, 0.0F, 6.0F, 0.01F, 0.001F};
+    SensorView view{scene.observation.mount, 0.0F, 6.0F, 0.01F, 0.001F};
     view.mount.half_view = 0.3F;
-    miss_landmark(scene.sighting.landmark, scene.poses, view, -1.5F, fast, scene.range());
-    reference::miss_landmark(scene.sighting.landmark, scene.poses, view, -1.5F, plain, scene.range());
+    miss_landmark(scene.observation.landmark, scene.poses, view, -1.5F, fast, scene.range());
+    reference::miss_landmark(scene.observation.landmark, scene.poses, view, -1.5F, plain, scene.range());
     for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(fast[i], plain[i]) << i;
   }
 }
@@ -43,7 +43,7 @@ class OneParticle {
   }
 
   /// What is left of log-odds of 2 after a miss that costs 0.5.
-  [[nodiscard]] float after_miss(const View& view, float change = -0.5F) {
+  [[nodiscard]] float after_miss(const SensorView& view, float change = -0.5F) {
     log_odds_[0] = 2.0F;
     const LandmarkMode mode{gaussian_};
     const LandmarkView landmark{LandmarkForm::kPoint, 0.0F, 0.0F, nullptr, nullptr, &mode, 1};
@@ -59,8 +59,8 @@ class OneParticle {
 };
 
 /// Three standard deviations are 0.3 m and 0.03 rad, nearly.
-View small_view() {
-  View view{{}, 1.0F, 5.0F, 0.0099F, 0.00009F};
+SensorView small_view() {
+  SensorView view{{}, 1.0F, 5.0F, 0.0099F, 0.00009F};
   view.mount.half_view = 0.5F;
   return view;
 }
@@ -80,7 +80,7 @@ TEST(MissLandmark, DoesNotCountWhatMayBeOutside) {
 }
 
 TEST(MissLandmark, ASensorThatSeesAllRoundSeesBehindItself) {
-  View view = small_view();
+  SensorView view = small_view();
   view.mount.half_view = 3.2F;
   EXPECT_EQ(OneParticle(3.0, 3.0).after_miss(view), 1.5F);
 }

@@ -18,7 +18,7 @@ using test::ParticleScene;
 constexpr Increment kMoved{0.1F, 0.02F, 0.05F, 2e-3F, 3e-4F, 2e-4F, 1e-3F, 4e-4F, 3e-3F};
 
 ParticleScene likelihood_scene(std::size_t count) {
-  return {count, LandmarkForm::kPoint, SightingKind::kRangeBearing, 1, 3};
+  return {count, LandmarkForm::kPoint, ObservationKind::kRangeBearing, 1, 3};
 }
 
 class ParticleLikelihood : public test::OnEveryInstructionSet {};
@@ -29,24 +29,24 @@ TEST_P(ParticleLikelihood, AsTheScalarFormula) {
     ParticleScene scene = likelihood_scene(count);
     float* const fast = scene.columns().add();
     float* const plain = scene.columns().add();
-    list_log_likelihoods(scene.sighting, kMoved, scene.poses, fast, scene.range());
-    reference::list_log_likelihoods(scene.sighting, kMoved, scene.poses, plain, scene.range());
+    list_log_likelihoods(scene.observation, kMoved, scene.poses, fast, scene.range());
+    reference::list_log_likelihoods(scene.observation, kMoved, scene.poses, plain, scene.range());
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_NEAR(fast[i], plain[i], 1e-4F * (1.0F + std::abs(plain[i])));
   }
 }
 
-/// Mean and covariance of one particle's innovation are those that compare_sighting() sums.
+/// Mean and covariance of one particle's innovation are those that compare_observation() sums.
 TEST(ListLogLikelihoods, IsTheDensityOfTheInnovation) {
   constexpr std::size_t kCount = 20;
   ParticleScene scene = likelihood_scene(kCount);
   float* const column = scene.columns().add();
-  list_log_likelihoods(scene.sighting, kMoved, scene.poses, column, scene.range());
+  list_log_likelihoods(scene.observation, kMoved, scene.poses, column, scene.range());
   for (std::size_t i = 0; i < kCount; ++i) {
     AlignedArray<double> only(round_up_particles(kCount));
     only[i] = 1.0;
-    const InnovationSums sums =
-        reference::compare_sighting(scene.sighting, kMoved, scene.poses, {}, only.data(), scene.range());
+    const InnovationSums sums = reference::compare_observation(scene.observation, kMoved, scene.poses, {},
+                                                               only.data(), scene.range());
     const Eigen::Vector2d nu(sums.nu[0], sums.nu[1]);
     const Eigen::Matrix2d L{{sums.L[0], sums.L[1]}, {sums.L[1], sums.L[2]}};
     const double expected =

@@ -98,7 +98,7 @@ TEST_P(ParticlePoses, NormalsAreThoseOfTheScalarGenerator) {
 }
 
 TEST_P(ParticlePoses, DrawAsTheScalarFormulaDoes) {
-  test::ParticleScene scene(kParticles, LandmarkForm::kPoint, SightingKind::kRange, 1, 1);
+  test::ParticleScene scene(kParticles, LandmarkForm::kPoint, ObservationKind::kRange, 1, 1);
   float* const n[]{scene.columns().add(), scene.columns().add(), scene.columns().add()};
   draw_normals({5}, n[0], n[1], n[2], kParticles);
   World fast(kParticles);

@@ -11,8 +11,8 @@
 #include "waymark/core/pose2.hpp"
 #include "waymark/core/random.hpp"
 #include "waymark/kernels/particle_columns.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 #include "waymark/kernels/particle_poses.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
 
 namespace waymark::test {
 
@@ -69,17 +69,17 @@ inline Pose2 pose_of(const kernels::PoseColumns& p, std::size_t i) {
 /// differently.
 class ParticleScene {
  public:
-  ParticleScene(std::size_t count, kernels::LandmarkForm form, kernels::SightingKind kind, std::size_t modes,
-                std::uint64_t seed)
+  ParticleScene(std::size_t count, kernels::LandmarkForm form, kernels::ObservationKind kind,
+                std::size_t modes, std::uint64_t seed)
       : count_(count),
         columns_(count),
         log_weight_(kernels::round_up_particles(count)),
         random_(seed, StreamPurpose::kWorld) {
     for (std::size_t k = 0; k < modes; ++k)
       modes_.push_back({columns_.add_gaussian(), modes > 1 ? columns_.add() : nullptr});
-    sighting.landmark = {form, 0.3F, -0.2F, columns_.add(), columns_.add(), modes_.data(), modes};
-    sighting.mount = {0.4F, -0.3F, std::cos(0.5F), std::sin(0.5F), 0.6F, 0.02F};
-    sighting.seen = {kind, 5.0F, std::cos(0.4F), std::sin(0.4F), 0.01F, 0.0005F, 0.002F};
+    observation.landmark = {form, 0.3F, -0.2F, columns_.add(), columns_.add(), modes_.data(), modes};
+    observation.mount = {0.4F, -0.3F, std::cos(0.5F), std::sin(0.5F), 0.6F, 0.02F};
+    observation.seen = {kind, 5.0F, std::cos(0.4F), std::sin(0.4F), 0.01F, 0.0005F, 0.002F};
     for (std::size_t i = 0; i < kernels::round_up_particles(count); ++i) draw_particle(i);
   }
 
@@ -113,7 +113,7 @@ class ParticleScene {
     d.yy[i] = 1e-3F;
     d.yt[i] = 4e-4F;
     d.tt[i] = 3e-3F;
-    const auto& landmark = sighting.landmark;
+    const auto& landmark = observation.landmark;
     landmark.anchor_x[i] = normal(0.3);
     landmark.anchor_y[i] = normal(0.3);
     const auto modes = static_cast<double>(modes_.size());
@@ -141,7 +141,7 @@ class ParticleScene {
  public:
   kernels::PoseColumns poses = columns_.add_poses();
   kernels::IncrementColumns increments = columns_.add_increments();
-  kernels::Sighting sighting;
+  kernels::LandmarkObservation observation;
 };
 
 }  // namespace waymark::test

@@ -74,7 +74,7 @@ TEST(LogFolder, EmptyCellsDecideWhatWasMeasured) {
   EXPECT_EQ(std::get<Bearing>(seen[2].value).bearing_rad, 0.25);
 }
 
-TEST(LogFolder, SaysWhetherAnySightingHasAnIdentity) {
+TEST(LogFolder, SaysWhetherAnyObservationHasAnIdentity) {
   const std::string head = "stamp_s,id,range_m,bearing_rad\n";
   const auto has_identities = [&](const std::string& rows) {
     const TempFolder folder;

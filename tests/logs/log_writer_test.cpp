@@ -188,7 +188,7 @@ Result<std::unique_ptr<sim::Simulation>> rendered_room() {
   options.path.speed_mps = 5.0;
   options.path.turn_rate_max_degps = 500.0;
   options.room.blocks = 2;
-  options.film.mount.pitch_deg = 2.5;
+  options.camera_simulator.mount.pitch_deg = 2.5;
   return sim::Simulation::make("room", options, 4);
 }
 

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         MapDamage{"landmarks: 1", "landmarks: -1", "m:6: the number of landmarks cannot be negative"},
         MapDamage{"landmarks: 1", "landmarks: 2000000000", "m:8: 'covariance:' is no kind of landmark"},
         MapDamage{"marker 7", "tree 7", "m:7: 'tree' is no kind of landmark"},
-        MapDamage{"marker 7 3", "marker 7 -3", "m:7: the number of sightings cannot be negative"},
+        MapDamage{"marker 7 3", "marker 7 -3", "m:7: the number of observations cannot be negative"},
         MapDamage{"1.5 2.5\n", "1.5 2.5 3.5\n", "m:7: there is more in this line"},
         MapDamage{"covariance: 5", "covariance: 7",
                   "m:8: the covariance has size 7, but pose and landmarks need 5"},

@@ -20,7 +20,7 @@ std::vector<MarkerDictionary> aruco_dictionaries() {
 }
 
 /// The fewest bits in which two patterns differ, however they are turned.
-int least_distance(const MarkerDictionary& dictionary) {
+int min_distance(const MarkerDictionary& dictionary) {
   int least = 64;
   for (int a = 0; a < dictionary.size; ++a) {
     std::uint64_t turned = aruco_code(dictionary, a);
@@ -56,7 +56,7 @@ TEST(ArucoCodes, AreAllDifferentAndOfTheirBits) {
 TEST(ArucoCodes, AreCorrectedAsFarAsTheyLeaveNoDoubt) {
   for (const MarkerDictionary& dictionary : aruco_dictionaries()) {
     if (dictionary.corrected_bits == 0) continue;
-    EXPECT_LT(2 * dictionary.corrected_bits, least_distance(dictionary)) << dictionary.name;
+    EXPECT_LT(2 * dictionary.corrected_bits, min_distance(dictionary)) << dictionary.name;
     EXPECT_LT(chance(dictionary), 1.0 / 300.0) << dictionary.name;
   }
 }

@@ -36,7 +36,7 @@ std::vector<MarkerDictionary> largest_dictionaries() {
   return all;
 }
 
-/// 48 to a picture, each turned otherwise than the last.
+/// 48 to an image, each turned otherwise than the last.
 TEST(ArucoDetector, ReadsEveryMarkerOfEveryDictionary) {
   constexpr int kColumns = 8, kRows = 6, kPitch_px = 80;
   for (const MarkerDictionary& dictionary : largest_dictionaries()) {

@@ -1,4 +1,4 @@
-// The detector against OpenCV's: in every picture it finds at least as much, and no more that is not there.
+// The detector against OpenCV's: in every image it finds at least as much, and no more that is not there.
 
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST(ArucoAgainstOpenCv, FindsAllInPhotographs) {
 TEST(ArucoAgainstOpenCv, FindsAllInRoomsAndNoFalseIdentityMore) {
   constexpr std::int32_t kLast = 11;
   sim::SimOptions options = *sim::scenario("marker-room");
-  options.film.rate_hz = 0.75;
+  options.camera_simulator.rate_hz = 0.75;
   Both both("4x4_50");
   std::int64_t false_ours = 0, false_opencv = 0, found = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -21,7 +21,7 @@ std::vector<Contour> trace(const ContrastMap& map, std::size_t points_min = 3) {
   return all;
 }
 
-/// Positive where a contour goes clockwise in the picture.
+/// Positive where a contour goes clockwise in the image.
 double area(const Contour& contour) {
   double twice = 0.0;
   for (std::size_t i = 0; i < contour.size(); ++i) {
@@ -69,7 +69,7 @@ TEST(Contours, JoinWhatTouchesAtACornerWhereTheMeanIsDark) {
   }
 }
 
-TEST(Contours, CloseAtTheEdgeOfThePicture) {
+TEST(Contours, CloseAtTheEdgeOfTheImage) {
   ContrastMap map = bright_map(9, 6);
   for (int v = 0; v < 6; ++v)
     for (int u = 0; u < 9; ++u) map.row(v)[u] = -100;

@@ -34,7 +34,7 @@ TEST(CornerRefinement, FindsTheTrueCornersFromAPixelAway) {
   }
 }
 
-/// From noisy pictures of one marker: in units of the noise of a point, whose size one factor for all corners
+/// From noisy images of one marker: in units of the noise of a point, whose size one factor for all corners
 /// must explain.
 TEST(CornerRefinement, CovarianceTellsWhichCornersScatter) {
   const Camera camera(test::marker_camera());
@@ -46,9 +46,9 @@ TEST(CornerRefinement, CovarianceTellsWhichCornersScatter) {
   test::draw_marker(clean, camera, pose, kSize_m, 7);
   const Corners start = test::corners_of(camera, pose, kSize_m);
   RandomStream random(2, StreamPurpose::kWorld);
-  constexpr int kPictures = 200;
+  constexpr int kImages = 200;
   Eigen::Matrix<double, 8, 1> sum = Eigen::Matrix<double, 8, 1>::Zero(), squares = sum, expected = sum;
-  for (int i = 0; i < kPictures; ++i) {
+  for (int i = 0; i < kImages; ++i) {
     GreyImage image = clean;
     for (int v = 150; v < 350; ++v)
       for (int u = 280; u < 480; ++u)
@@ -59,9 +59,9 @@ TEST(CornerRefinement, CovarianceTellsWhichCornersScatter) {
     for (std::size_t k = 0; k < 4; ++k)
       for (Eigen::Index axis = 0; axis < 2; ++axis) {
         const auto row = static_cast<Eigen::Index>(2 * k) + axis;
-        sum[row] += refined->corners_px[k][axis] / kPictures;
-        squares[row] += refined->corners_px[k][axis] * refined->corners_px[k][axis] / kPictures;
-        expected[row] += refined->covariance(row, row) / kPictures;
+        sum[row] += refined->corners_px[k][axis] / kImages;
+        squares[row] += refined->corners_px[k][axis] * refined->corners_px[k][axis] / kImages;
+        expected[row] += refined->covariance(row, row) / kImages;
       }
   }
   const Eigen::Array<double, 8, 1> variance = squares.array() - sum.array().square();
@@ -93,7 +93,7 @@ TEST(CornerRefinement, RefusesWhatIsCutOffOrNotThere) {
   pose.p_camera_marker = {0.0, 0.0, 2.0};
   EXPECT_FALSE(refine_corners(wall, camera, test::corners_of(camera, pose, kSize_m), kCells).has_value());
   GreyImage image(640, 480, 120);
-  pose.p_camera_marker = {-1.12, 0.0, 2.0};  // its left side at the border of the picture
+  pose.p_camera_marker = {-1.12, 0.0, 2.0};  // its left side at the border of the image
   test::draw_marker(image, camera, pose, kSize_m, 7);
   EXPECT_FALSE(refine_corners(image, camera, test::corners_of(camera, pose, kSize_m), kCells).has_value());
 }

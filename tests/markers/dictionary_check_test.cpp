@@ -16,15 +16,15 @@ std::shared_ptr<const GreyImage> photograph(const char* name) {
   return std::make_shared<const GreyImage>(*read_image(test::data_path("marker-photos") / name));
 }
 
-/// Shows one picture ten times to a check of that dictionary.
+/// Shows one image ten times to a check of that dictionary.
 std::optional<std::string> verdict(const char* name, const char* dictionary) {
-  const auto picture = photograph(name);
+  const auto image = photograph(name);
   DictionaryCheck check(*find_marker_dictionary(dictionary));
   const auto detector = make_marker_detector(*find_marker_dictionary(dictionary));
   for (int i = 0; i < 10; ++i) {
     std::vector<std::int32_t> ids;
-    for (const Marker& marker : (*detector)->detect(*picture)) ids.push_back(marker.id);
-    check.add(picture, ids);
+    for (const Marker& marker : (*detector)->detect(*image)) ids.push_back(marker.id);
+    check.add(image, ids);
   }
   return check.verdict();
 }
@@ -55,15 +55,15 @@ TEST_F(DictionaryCheckPhotos, NamesAprilTags) {
 
 TEST_F(DictionaryCheckPhotos, SaysThatIdentitiesComeAndGo) {
   DictionaryCheck check(*find_marker_dictionary("4x4_50"));
-  const auto picture = photograph("singlemarkersoriginal.jpg");
-  for (std::int32_t i = 0; i < 10; ++i) check.add(picture, std::vector<std::int32_t>{i});
+  const auto image = photograph("singlemarkersoriginal.jpg");
+  for (std::int32_t i = 0; i < 10; ++i) check.add(image, std::vector<std::int32_t>{i});
   const auto line = check.verdict();
   ASSERT_TRUE(line.has_value());
-  EXPECT_THAT(*line, HasSubstr("10 markers of 10 identities in 10 pictures"));
+  EXPECT_THAT(*line, HasSubstr("10 markers of 10 identities in 10 images"));
   EXPECT_THAT(*line, HasSubstr("6x6_250 finds"));
 }
 
-TEST(DictionaryCheck, WithoutPicturesSaysNothing) {
+TEST(DictionaryCheck, WithoutImagesSaysNothing) {
   EXPECT_EQ(DictionaryCheck(*find_marker_dictionary("4x4_50")).verdict(), std::nullopt);
 }
 
@@ -72,7 +72,7 @@ TEST(DictionaryCheck, WithoutAnyMarkerSaysSo) {
   const auto wall = std::make_shared<const GreyImage>(320, 240, 100);
   for (int i = 0; i < 100; ++i) check.add(wall, {});
   EXPECT_THAT(check.verdict().value_or(""),
-              HasSubstr("4x4_50 found 0 markers of 0 identities in 100 pictures"));
+              HasSubstr("4x4_50 found 0 markers of 0 identities in 100 images"));
 }
 
 }  // namespace

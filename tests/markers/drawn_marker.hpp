@@ -60,7 +60,7 @@ inline double grey_behind(const Camera& camera, const markers::MarkerPose& pose,
   return sim::is_white(number, column, row) ? 210.0 : 25.0;
 }
 
-/// Paints a marker into a picture by 6 x 6 rays per pixel.
+/// Paints a marker into an image by 6 x 6 rays per pixel.
 inline void draw_marker(GreyImage& image, const Camera& camera, const markers::MarkerPose& pose,
                         double size_m, int number) {
   constexpr int kRays = 6;

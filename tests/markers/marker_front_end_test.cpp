@@ -36,7 +36,7 @@ struct Drawn {
   markers::MarkerPose pose;
 };
 
-MarkerFrontEnd::Picture picture_of(const std::vector<Drawn>& all) {
+MarkerFrontEnd::SharedImage image_of(const std::vector<Drawn>& all) {
   GreyImage image(640, 480, 120);
   for (const Drawn& each : all)
     test::draw_marker(image, Camera(test::marker_camera()), each.pose, kSize_m, each.number);
@@ -47,14 +47,14 @@ std::span<const Observation> observed(const FrontEnd::Seen& seen) {
   return std::get<std::span<const Observation>>(seen);
 }
 
-std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEnd::Picture& picture) {
-  front_end.announce(picture);
+std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEnd::SharedImage& frame) {
+  front_end.announce(frame);
   std::vector<std::int32_t> numbers;
-  for (const Observation& each : observed(front_end.see(picture))) numbers.push_back(each.id->number);
+  for (const Observation& each : observed(front_end.see(frame))) numbers.push_back(each.id->number);
   return numbers;
 }
 
-/// Throws at pictures that begin dark.
+/// Throws at images that begin dark.
 class FearsTheDark final : public markers::MarkerDetector {
  public:
   std::vector<markers::Marker> detect(const ImageView& image) override {
@@ -63,19 +63,19 @@ class FearsTheDark final : public markers::MarkerDetector {
   }
 };
 
-MarkerFinder::Picture plain(std::uint8_t grey) { return std::make_shared<const GreyImage>(8, 8, grey); }
+MarkerFinder::SharedImage plain(std::uint8_t grey) { return std::make_shared<const GreyImage>(8, 8, grey); }
 
-TEST(MarkerFinder, ThrowsWhatTheDetectorThrewToWhoeverTakesThePicture) {
+TEST(MarkerFinder, ThrowsWhatTheDetectorThrewToWhoeverTakesTheImage) {
   for (const bool own_thread : {true, false}) {
     MarkerFinder finder(std::make_unique<FearsTheDark>(), own_thread);
     const auto light = plain(200), dark = plain(0);
-    for (const auto& picture : {light, dark}) finder.announce(picture);
+    for (const auto& frame : {light, dark}) finder.announce(frame);
     EXPECT_EQ(finder.take(light).markers.at(0).id, 7);
     EXPECT_THROW(static_cast<void>(finder.take(dark)), std::runtime_error);
   }
 }
 
-TEST(MarkerFinder, DropsAPictureAtWhichTheDetectorThrew) {
+TEST(MarkerFinder, DropsAnImageAtWhichTheDetectorThrew) {
   const auto dark = plain(0);
   MarkerFinder finder(std::make_unique<FearsTheDark>(), true);
   finder.announce(dark);
@@ -91,7 +91,7 @@ TEST(MarkerFinder, ThatCannotStartItsThreadSaysSo) {
 TEST(MarkerFrontEnd, SeesEveryMarkerOnce) {
   for (const bool own_thread : {true, false}) {
     const auto front_end = *MarkerFrontEnd::make(marker_options(own_thread), Camera(test::marker_camera()));
-    EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.3, 2.0)}, {7, at(0.3, 1.5)}})), ElementsAre(3, 7));
+    EXPECT_THAT(seen_in(*front_end, image_of({{3, at(-0.3, 2.0)}, {7, at(0.3, 1.5)}})), ElementsAre(3, 7));
     EXPECT_THAT(front_end->notes({}), IsEmpty());
     EXPECT_EQ(front_end->blocks()[0].calls, 1);
     EXPECT_GT(front_end->blocks()[0].total.count(), 0);
@@ -100,17 +100,16 @@ TEST(MarkerFrontEnd, SeesEveryMarkerOnce) {
 
 TEST(MarkerFrontEnd, TrustsNeitherOfTwoWithOneNumber) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
-  EXPECT_THAT(seen_in(*front_end, picture_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
+  EXPECT_THAT(seen_in(*front_end, image_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
               ElementsAre(5));
-  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("marker 3 is twice in 1 pictures")));
+  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("marker 3 is twice in 1 images")));
 }
 
 TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
   markers::MarkerOptions options = marker_options();
   options.confirm = 3;
   const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
-  const auto with = picture_of({{1, at(0.0, 2.0)}, {2, at(0.4, 2.0)}}),
-             without = picture_of({{1, at(0.0, 2.0)}});
+  const auto with = image_of({{1, at(0.0, 2.0)}, {2, at(0.4, 2.0)}}), without = image_of({{1, at(0.0, 2.0)}});
   EXPECT_THAT(seen_in(*front_end, with), IsEmpty());
   EXPECT_THAT(seen_in(*front_end, without), IsEmpty());
   EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
@@ -119,10 +118,10 @@ TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
   EXPECT_THAT(front_end->notes({}), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
 }
 
-TEST(MarkerFrontEnd, PicturesMayBeAnnouncedLongBeforeAndDropped) {
+TEST(MarkerFrontEnd, ImagesMayBeAnnouncedLongBeforeAndDropped) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
-  const auto first = picture_of({{1, at(0.0, 2.0)}}), second = picture_of({{2, at(0.0, 2.0)}});
-  for (const auto& picture : {first, second, first}) front_end->announce(picture);
+  const auto first = image_of({{1, at(0.0, 2.0)}}), second = image_of({{2, at(0.0, 2.0)}});
+  for (const auto& frame : {first, second, first}) front_end->announce(frame);
   front_end->drop(first);
   EXPECT_EQ(observed(front_end->see(second))[0].id->number, 2);
   EXPECT_EQ(observed(front_end->see(first))[0].id->number, 1);
@@ -131,13 +130,13 @@ TEST(MarkerFrontEnd, PicturesMayBeAnnouncedLongBeforeAndDropped) {
 TEST(MarkerFrontEnd, TakesCornersThatOthersFound) {
   const Camera camera(test::marker_camera());
   const auto front_end = *MarkerFrontEnd::make(marker_options(), camera);
-  const auto picture = picture_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
-  front_end->announce(picture);
-  const auto own = observed(front_end->see(picture));
+  const auto frame = image_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
+  front_end->announce(frame);
+  const auto own = observed(front_end->see(frame));
   const std::vector<Observation> seen(own.begin(), own.end());
   MarkerOutlines outlines =
       (*markers::make_marker_detector(markers::marker_set(marker_options())->dictionary))
-          ->detect(picture->view());
+          ->detect(frame->view());
   std::ranges::reverse(outlines);
   const auto told = front_end->see(outlines);
   ASSERT_EQ(told.size(), seen.size());
@@ -162,11 +161,11 @@ TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
   EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("nobody said how large")));
 }
 
-TEST(MarkerFrontEnd, EndsWhilePicturesWait) {
-  const auto picture = picture_of({{1, at(0.0, 2.0)}});
+TEST(MarkerFrontEnd, EndsWhileImagesWait) {
+  const auto frame = image_of({{1, at(0.0, 2.0)}});
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
-  for (int i = 0; i < 20; ++i) front_end->announce(picture);
-  EXPECT_TRUE(front_end->fits(*picture));
+  for (int i = 0; i < 20; ++i) front_end->announce(frame);
+  EXPECT_TRUE(front_end->fits(*frame));
   EXPECT_FALSE(front_end->fits(GreyImage(320, 240)));
 }
 
@@ -176,7 +175,7 @@ TEST(MarkerFrontEnd, SaysWhatItNeeds) {
   EXPECT_THAT(front_end.error().message, HasSubstr("markers.dictionary"));
 }
 
-TEST(MarkerFrontEnd, NoticesJumpsWhereAFifthOfTheSightingsIsRefused) {
+TEST(MarkerFrontEnd, NoticesJumpsWhereAFifthOfTheObservationsIsRefused) {
   const auto innovation = [](std::int32_t number, Outcome outcome) {
     return Innovation{{LandmarkId::Family::kMarker, number}, outcome, 2, 0.0, 0.0};
   };
@@ -205,7 +204,7 @@ TEST(MarkerFrontEnd, PutsTheMarkersOfARoomOnTheMap) {
   for (const char* filter : {"ekf", "fastslam"}) {
     const auto recording = drive({std::string("filter=") + filter});
     ASSERT_TRUE(recording.ok());
-    EXPECT_EQ(recording->counts.pictures, 61);
+    EXPECT_EQ(recording->counts.images, 61);
     const auto survey = open_input("sim:marker-room", {})->source->info().landmarks;
     const auto map = recording->filter->snapshot().landmarks;
     EXPECT_GE(map.size(), 2U);
@@ -237,12 +236,12 @@ TEST(MarkerFrontEnd, BlocksStandInTheTableOfTheRun) {
   EXPECT_THAT(names, testing::IsSupersetOf({"find markers", "measure markers", "FB6 estimate"}));
 }
 
-TEST(MarkerFrontEnd, ALogWithoutPicturesIsAnError) {
+TEST(MarkerFrontEnd, ALogWithoutImagesIsAnError) {
   const auto recording =
       drive({"observe=markers", "markers.dictionary=4x4_50", "markers.size_m=0.2"}, 4.0, "study");
   ASSERT_TRUE(recording.ok());
   ASSERT_TRUE(recording->error.has_value());
-  EXPECT_THAT(recording->error->message, HasSubstr("no picture in which markers could be found"));
+  EXPECT_THAT(recording->error->message, HasSubstr("no image in which markers could be found"));
 }
 
 TEST(MarkerConfig, WhoNamesMarkersWantsThemObserved) {

@@ -78,7 +78,7 @@ TEST_F(ArucoPhotos, GridBoard) {
 }
 
 /// The bag is not compressed: its one JPEG file lies in it as it is.
-TEST_F(ArucoPhotos, PictureInABag) {
+TEST_F(ArucoPhotos, ImageInABag) {
   std::ifstream bag(test::data_path("marker-photos/aruco_images.bag"), std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(bag), {}};
   const auto begin = bytes.find("\xFF\xD8\xFF");
@@ -89,7 +89,7 @@ TEST_F(ArucoPhotos, PictureInABag) {
   fs::remove(file);
 }
 
-/// Clockwise in the picture, as seen by somebody in front of the marker.
+/// Clockwise in the image, as seen by somebody in front of the marker.
 TEST_F(ArucoPhotos, CornersGoClockwise) {
   for (const Marker& marker : detect("choriginal.jpg", "6x6_250")) {
     const auto& c = marker.corners_px;

@@ -17,7 +17,7 @@ inline cv::Ptr<cv::aruco::Dictionary> opencv_dictionary(const markers::MarkerDic
   return cv::aruco::getPredefinedDictionary(static_cast<int>(place));
 }
 
-/// The markers that OpenCV finds: by its own thresholds, and in small pictures once more at twice their size
+/// The markers that OpenCV finds: by its own thresholds, and in small images once more at twice their size
 /// with one narrow window, since markers of a few pixels are smaller than its windows.
 class OpenCvAruco {
  public:
@@ -46,7 +46,7 @@ class OpenCvAruco {
   }
 
  private:
-  /// Pixels of an enlarged picture count from their centres, too.
+  /// Pixels of an enlarged image count from their centres, too.
   [[nodiscard]] std::vector<markers::Marker> find(const cv::Mat& pixels,
                                                   const cv::aruco::DetectorParameters& parameters,
                                                   double enlarged) const {

@@ -105,7 +105,7 @@ TEST(Camera, SeesNothingWhereTheLensPolynomialTurnsBack) {
   EXPECT_LT(ray->xy.x(), 1.054);
 }
 
-TEST(Camera, PictureEndsAtTheCentresOfItsOuterPixels) {
+TEST(Camera, ImageEndsAtTheCentresOfItsOuterPixels) {
   const Camera camera;
   EXPECT_TRUE(camera.sees({0.0, 0.0}));
   EXPECT_TRUE(camera.sees({319.0, 239.0}));

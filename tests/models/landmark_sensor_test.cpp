@@ -93,7 +93,7 @@ TEST(Rectify, RefusesADepthWithoutADirectionOrBesideTheSensor) {
 TEST(WithWhiteErrors, CoversWhatLastsByNoise) {
   LandmarkSensor sensor;
   sensor.range_sigma_ratio = 0.03;
-  sensor.errors.lasting_range_sigma_ratio = 0.04;
+  sensor.errors.bias_range_sigma_ratio = 0.04;
   sensor.bearing_sigma_deg = 3.0;
   sensor.errors.shared_bearing_sigma_deg = 4.0;
   const LandmarkSensor white = with_white_errors(sensor);

@@ -21,7 +21,7 @@ using test::to_vector;
 
 constexpr double kPixelTolerance = 1e-3;  // entries of some hundred to some thousand
 
-/// A camera on a robot somewhere, and a point some metres away in its picture.
+/// A camera on a robot somewhere, and a point some metres away in its image.
 struct PixelScene {
   explicit PixelScene(RandomStream& random)
       : camera(random_camera(random)), T_world_robot(random_pose(random)), pose(camera.pose(T_world_robot)) {

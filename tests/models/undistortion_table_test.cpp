@@ -31,7 +31,7 @@ TEST(UndistortionTable, HoldsAtTheCornersAndBeyond) {
 
 TEST(UndistortionTable, IsNothingWhereNoRayEnds) {
   CameraOptions o;
-  o.distortion.k1 = -1.2;  // the picture's corners lie beyond what this lens can show
+  o.distortion.k1 = -1.2;  // the image's corners lie beyond what this lens can show
   EXPECT_TRUE(UndistortionTable(Camera(o))({0.0, 0.0}).hasNaN());
 }
 

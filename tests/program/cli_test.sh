@@ -53,9 +53,9 @@ refuses 2 'bad.yaml:2' config --validate bad.yaml
 # Config keys, shown, all and in part; those of earlier versions.
 does config
 grep -q 'particles:' out.txt || fail "config: a key that pages name is not shown"
-! grep -q 'wander_px:' out.txt || fail "config: shows a key that no page tells to set"
+! grep -q 'landmark_noise_px:' out.txt || fail "config: shows a key that no page tells to set"
 does config --all
-grep -q 'wander_px:' out.txt || fail "config --all: lacks a key"
+grep -q 'landmark_noise_px:' out.txt || fail "config --all: lacks a key"
 does config sensor
 [ "$(grep -vcE '^ |^$|^sensor:' out.txt)" -eq 0 ] || fail "config sensor: prints other sections"
 refuses 2 'did you mean' config senzor
@@ -101,9 +101,9 @@ grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to
 does check sim:forest
 grep -q 'run: waymark run sim:forest -o out' out.txt || fail 'check names no command for a log without identities'
 does sim forest -o forest --set sim.laps=1
-does run forest --filter fastslam -o unnamed --json
+does run forest --filter fastslam -o without_identity --json
 grep -q '"associate": "ml"' out.txt || fail 'a log folder without identities is not associated'
-does run forest -o unnamed --json
+does run forest -o without_identity --json
 grep -q '"associate": "jcbb"' out.txt || fail 'a log folder without identities is not associated by the EKF'
 does run log -o whole
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
@@ -160,21 +160,21 @@ does map fix whole/map.waymark --survey survey.csv -o fixed.waymark
 does run log -o found --from 5 --map fixed.waymark --localize
 refuses 2 'ends with .waymark' map convert m.json -o m.txt
 
-# Pictures: from disk as from memory, and what can be wrong with them.
+# Images: from disk as from memory, and what can be wrong with them.
 short=(--set sim.side_m=2 --set sim.speed_mps=1 --set sim.corner_radius_m=0.3)
 does sim room -o room "${short[@]}"
 does check room
-grep -q 'run: waymark run room -o out --observe pixel' out.txt || fail 'check does not say how pictures are run'
+grep -q 'run: waymark run room -o out --observe pixel' out.txt || fail 'check does not say how images are run'
 does run room -o seen
 does run sim:room "${short[@]}" -o seen-memory
-cmp -s seen/trajectory.tum seen-memory/trajectory.tum || fail 'pictures from memory give another path than from disk'
-[ "$(wc -l <seen/map.csv)" -gt 10 ] || fail 'pictures give no map'
-grep -q 'landmark_dimension: 3' seen/map.waymark || fail 'a map from pictures has no heights'
+cmp -s seen/trajectory.tum seen-memory/trajectory.tum || fail 'images from memory give another path than from disk'
+[ "$(wc -l <seen/map.csv)" -gt 10 ] || fail 'images give no map'
+grep -q 'landmark_dimension: 3' seen/map.waymark || fail 'a map from images has no heights'
 grep -q '"FB4 match"' seen/metrics.json || fail 'metrics.json lacks the blocks of the tracker'
-[ "$(wc -c <seen/report.html)" -lt 3000000 ] || fail 'a report with pictures is too large'
+[ "$(wc -c <seen/report.html)" -lt 3000000 ] || fail 'a report with images is too large'
 refuses 2 'filter=ekf' run room -o o --filter fastslam
 refuses 2 'its landmarks are of dimension 3' run log -o o --map seen/map.waymark
-grep -q '^patches: ' seen/map.waymark || fail 'a map from pictures has no patches'
+grep -q '^patches: ' seen/map.waymark || fail 'a map from images has no patches'
 does run room -o seen-again --from 0.2 --map seen/map.waymark
 refuses 2 'map.localize: needs observe=range-bearing or markers' run room -o o --map seen/map.waymark --localize
 refuses 2 'observe' run log -o o --observe pixel
@@ -183,8 +183,8 @@ spoil && sed -i 's/image_width: 320/image_width: 640/' spoilt/camera.yaml
 refuses 2 'camera.yaml: image_width and image_height are 640 and 240' run spoilt -o o
 spoil && rm spoilt/images/*9.png && head -c 100 room/images/000020.png >spoilt/images/000020.png
 does run spoilt -o o
-grep -q 'missing in images' out.txt || fail 'missing pictures are not named'
-grep -q 'images skipped: 1, the first because' out.txt || fail 'a damaged picture is not named'
+grep -q 'missing in images' out.txt || fail 'missing images are not named'
+grep -q 'images skipped: 1, the first because' out.txt || fail 'a damaged image is not named'
 spoil && rm spoilt/camera.yaml
 does check spoilt
 grep -q 'camera.yaml is missing' out.txt || fail 'check does not say that the camera is unknown'
@@ -192,18 +192,18 @@ refuses 2 'into the log as camera.yaml, or set camera.width_px' run spoilt -o o
 refuses 2 'into the log as camera.yaml, or set camera.width_px' run spoilt -o o --observe pixel
 camera=(--set camera.width_px=320 --set camera.height_px=240 --set camera.fu_px=277 --set camera.fv_px=277)
 does run spoilt -o o "${camera[@]}"
-refuses 2 'no picture' run spoilt -o o "${camera[@]}" --set camera.width_px=640
+refuses 2 'no image' run spoilt -o o "${camera[@]}" --set camera.width_px=640
 pgm() { printf 'P5\n%s %s\n255\n' "$1" "$2" && head -c $(($1 * $2)) /dev/zero | tr '\0' "$3"; } # WIDTH HEIGHT GREY
 spoil && pgm 320 240 '\0' >spoilt/images/000020.png && pgm 320 240 '\377' >spoilt/images/000021.png
 pgm 160 120 '\0' >spoilt/images/000030.png && cp spoilt/images/000040.png spoilt/images/000041.png
 does run spoilt -o o
-for note in '2 pictures show nothing' 'has 160 x 120 pixels, expected 320 x 240' '1 pictures skipped: the stamp or every pixel'; do
+for note in '2 images show nothing' 'has 160 x 120 pixels, expected 320 x 240' '1 images skipped: the stamp or every pixel'; do
   grep -q "$note" out.txt || fail "the notes lack: $note"
 done
 spoil && sed -i '20{h;d};22G' spoilt/images.csv
 refuses 2 'images.csv:22' run spoilt -o o
 spoil && rm spoilt/images/*.png
-refuses 2 'no picture' run spoilt -o o
+refuses 2 'no image' run spoilt -o o
 does run room -o o --set tracker.frame_budget_ms=0.3
 grep -q 'for want of time' out.txt || fail 'a budget that is too small is not named'
 
@@ -292,11 +292,11 @@ grep -q 'ekf.step ' out.txt || fail 'bench prints no step'
 does bench ekf --quick --json
 node -e '
   const { machine, results } = JSON.parse(require("fs").readFileSync(0));
-  const keys = {"ekf.step": "landmarks sightings mode", "ekf.step_wall": "landmarks sightings threads",
-    "ekf.plain_rank_update": "landmarks sightings", "ekf.plain_rank_update_ratio": "landmarks sightings",
-    "ekf.plain_textbook": "landmarks sightings", "ekf.plain_textbook_ratio": "landmarks sightings",
-    "ekf.flop_bound": "landmarks sightings", "ekf.flop_bound_distance": "landmarks sightings",
-    "ekf.block": "landmarks sightings block"};
+  const keys = {"ekf.step": "landmarks observations mode", "ekf.step_wall": "landmarks observations threads",
+    "ekf.plain_rank_update": "landmarks observations", "ekf.plain_rank_update_ratio": "landmarks observations",
+    "ekf.plain_textbook": "landmarks observations", "ekf.plain_textbook_ratio": "landmarks observations",
+    "ekf.flop_bound": "landmarks observations", "ekf.flop_bound_distance": "landmarks observations",
+    "ekf.block": "landmarks observations block"};
   const expect = (good, what) => { if (!good) { console.error(what); process.exitCode = 1; } };
   for (const key of ["cpu", "cores", "instruction_set", "fma_gflops", "version", "compiler"])
     expect(machine[key], "machine." + key);
@@ -377,7 +377,7 @@ refuses 2 'rmse' tune "${quick_tune[@]}" --by luck -o o
 mkdir few
 printf 'waymark_log: 1\nname: few\n' >few/log.yaml
 printf 'stamp_s,v_mps,w_radps\n0,1,0\n1,1,0\n' >few/velocity.csv
-refuses 2 'no sightings' tune few -o o
+refuses 2 'no observations' tune few -o o
 printf 'stamp_s,id,range_m,bearing_rad\n0,1,3,0.1\n0.5,1,2.5,0.1\n' >few/observations.csv
 refuses 2 'too few' tune few -o o
 refuses 2 'no ground truth' tune few --by rmse -o o
@@ -387,10 +387,10 @@ kill -INT $! 2>/dev/null
 wait $!
 grep -q 'the best values so far are in t3/tuned.yaml' err.txt || [ -s t3/report.html ] || fail "tune, stopped: $(cat err.txt)"
 
-# Calibrating a camera: what is no set of pictures, and what the pictures do not show.
+# Calibrating a camera: what is no set of images, and what the images do not show.
 refuses 2 'subcommand' calibrate
 refuses 2 'input' calibrate camera
-refuses 2 'empty: no pictures' calibrate camera empty
+refuses 2 'empty: no images' calibrate camera empty
 refuses 2 'nowhere: there is no such file' calibrate camera nowhere
 refuses 2 '--corners 9' calibrate camera room/images --corners 9
 refuses 2 '--squares' calibrate camera room/images --board charuco
@@ -401,13 +401,13 @@ WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate ca
 if "$waymark" calibrate camera x.mat 2>&1 | grep -q 'is not installed'; then
   echo 'SKIPPED: this build has no OpenCV'
 else
-  refuses 2 'is neither a picture' calibrate camera x.mat
+  refuses 2 'is neither an image' calibrate camera x.mat
   refuses 2 'no chessboard with 9x6 inner corners' calibrate camera 'room/images/00000*.png' --corners 9x6
   mkdir blank && for i in 1 2 3; do pgm 320 240 '\200' >blank/$i.pgm; done
   refuses 2 'no chessboard was found' calibrate camera blank
   refuses 2 'no chessboard was found' calibrate camera 'room/images/00000*.png'
   mkdir broken && for i in 1 2 3; do head -c 100 room/images/000020.png >broken/$i.png; done
-  refuses 2 'none of 3 pictures can be read' calibrate camera broken --corners 9x6
+  refuses 2 'none of 3 images can be read' calibrate camera broken --corners 9x6
   photos=${WAYMARK_DATA_DIR:-$data}/calib-chessboard
   if [ -d "$photos" ]; then
     does calibrate camera "$photos/left*.jpg" --corners 9x6 --square_m 0.025 -o left
@@ -426,7 +426,7 @@ else
       if (!weak || !weaknesses[0].what.includes("only 9 views")) throw "not weak";
       if (of("000020.png") !== "no board" || of("left11.jpg") !== "unreadable") throw "verdicts";
       ' <out.txt || fail "calibrate --json is not what it should be: $(cat out.txt)"
-    refuses 2 '2 of 2 pictures show' calibrate camera "$photos/left01.jpg" "$photos/left02.jpg" --corners 9x6
+    refuses 2 '2 of 2 images show' calibrate camera "$photos/left01.jpg" "$photos/left02.jpg" --corners 9x6
   else
     echo "SKIPPED: no recording $photos"
   fi

@@ -9,10 +9,10 @@ namespace waymark {
 namespace {
 
 using calibrate::BoardCorners;
+using calibrate::BoardView;
 using calibrate::Fate;
-using calibrate::View;
 
-/// Views of a board that is turned about one axis and then the other, exact but for one corner; one picture
+/// Views of a board that is turned about one axis and then the other, exact but for one corner; one image
 /// without a board, and two frames that nobody looks at.
 CameraReport sample_camera() {
   const calibrate::Board board{.corners = {5, 4}, .square_m = 0.04};
@@ -66,7 +66,7 @@ TEST(CameraReport, JsonHasEveryViewAndWhyTheSetIsWeak) {
 
 #ifdef WAYMARK_CHROMIUM
 
-TEST(CameraPage, ShowsTheVerdictAndEveryPicture) {
+TEST(CameraPage, ShowsTheVerdictAndEveryImage) {
   const test::Page page = test::open_in_browser(render_camera_report(sample_camera()));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
@@ -80,7 +80,7 @@ TEST(CameraPage, ShowsTheVerdictAndEveryPicture) {
 
 #else
 
-TEST(CameraPage, ShowsTheVerdictAndEveryPicture) { GTEST_SKIP() << "no chromium on this machine"; }
+TEST(CameraPage, ShowsTheVerdictAndEveryImage) { GTEST_SKIP() << "no chromium on this machine"; }
 
 #endif
 

@@ -8,8 +8,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<calibrate::Finding> kFindings{{{"wheels.track_m", 0.33, 0.001}, 0.3},
-                                                {{"sensor.x_m", 0.1, 0.5, true}, 0.1}};
+const std::vector<calibrate::CalibrationFinding> kFindings{{{"wheels.track_m", 0.33, 0.001}, 0.3},
+                                                           {{"sensor.x_m", 0.1, 0.5, true}, 0.1}};
 
 TEST(FindingsText, HasARowPerFindingAndSaysWhatIsOnlyAssumed) {
   const std::string text = findings_text(kFindings, 4, "a log");

@@ -62,13 +62,14 @@ TEST(ReportJson, ThinsLongSeriesAndKeepsTheirPeaks) {
 }
 
 TEST(ReportJson, SaysWhatBecameOfEachLook) {
-  const json film = json::parse(report_json(sample_report(10))).at("runs").at(0).at("film");
-  ASSERT_EQ(film.size(), 2U);
+  const json image_strip = json::parse(report_json(sample_report(10))).at("runs").at(0).at("image_strip");
+  ASSERT_EQ(image_strip.size(), 2U);
   std::vector<std::string> results;
-  for (const json& look : film.at(1).at("looks")) results.push_back(look.at("result"));
+  for (const json& look : image_strip.at(1).at("search_records")) results.push_back(look.at("result"));
   EXPECT_EQ(results, (std::vector<std::string>{"not tried", "found", "rejected", "new", "not tried"}));
-  EXPECT_EQ(film.at(1).at("looks").at(1).at("u"), 10.25);
-  EXPECT_EQ(film.at(1).at("png").get<std::string>().substr(0, 11), "iVBORw0KGgo");  // how PNG files begin
+  EXPECT_EQ(image_strip.at(1).at("search_records").at(1).at("u"), 10.25);
+  EXPECT_EQ(image_strip.at(1).at("png").get<std::string>().substr(0, 11),
+            "iVBORw0KGgo");  // how PNG files begin
 }
 
 TEST(ReportJson, CountsAllInnovationsInTheHistogram) {

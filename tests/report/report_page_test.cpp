@@ -23,7 +23,7 @@ TEST(ReportPage, DrawsEverythingAndAnswers) {
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(count(page.body, kUplot), 8U);  // position; x, y, heading, NEES; innovations, histogram; steps
   EXPECT_EQ(count(page.body, "class=\"map-frame\""), 1U);
-  EXPECT_EQ(count(page.body, "<ellipse"), 5U);  // of the one picture that is shown
+  EXPECT_EQ(count(page.body, "<ellipse"), 5U);  // of the one image that is shown
   for (const char* text : {"Runs compared", "Function blocks", "position_rmse_m",
                            "3 observations came before", "Run it again"}) {
     EXPECT_NE(page.body.find(text), std::string::npos) << text;

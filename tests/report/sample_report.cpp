@@ -55,22 +55,22 @@ InnovationSeries innovations(std::size_t rows) {
   return series;
 }
 
-/// Two pictures with one landmark of each fate.
-FilmSeries film() {
-  FilmSeries series;
+/// Two images with one landmark of each fate.
+ImageStripSeries image_strip() {
+  ImageStripSeries series;
   for (int i = 0; i < 2; ++i) {
-    FilmFrame& frame = series.frames.emplace_back();
-    frame.picture = GreyImage(64, 48, static_cast<std::uint8_t>(100 + i));
+    StripFrame& frame = series.frames.emplace_back();
+    frame.image = GreyImage(64, 48, static_cast<std::uint8_t>(100 + i));
     for (int k = 0; k < 5; ++k) {
-      vision::Look look{.id = {LandmarkId::Family::kCorner, k}, .candidate = k == 4};
-      look.result = static_cast<vision::Look::Result>(k % 4);
+      vision::SearchRecord look{.id = {LandmarkId::Family::kCorner, k}, .candidate = k == 4};
+      look.result = static_cast<vision::SearchRecord::Result>(k % 4);
       look.predicted_px = Eigen::Vector2d(10.0 * k, 20.0);
       look.S = Eigen::Matrix2d::Identity();
       look.pixel = look.predicted_px + Eigen::Vector2d(0.25, i);
-      frame.looks.push_back(look);
+      frame.search_records.push_back(look);
     }
-    frame.looks[2].result = vision::Look::Result::kFound;
-    frame.refused.push_back(frame.looks[2].id);
+    frame.search_records[2].result = vision::SearchRecord::Result::kFound;
+    frame.refused.push_back(frame.search_records[2].id);
     series.t_s.push_back(0.5 * i);
   }
   return series;
@@ -94,7 +94,7 @@ RunData run(const std::string& name, std::size_t rows, double error_m) {
   run.steps = {run.path.t_s, std::vector<double>(rows, 50.0), 33'000.0};
   run.steps.us[rows / 2] = 900.0;
   run.blocks = {{"predict", 900, 2.5, 2.5}, {"correct", 880, 40.0, 39.1}};
-  run.film = film();
+  run.image_strip = image_strip();
   run.metrics_json =
       R"({"input": "sim:circle", "observe": "range-bearing", "duration_s": 90.0, "nis_per_dof": 1.02,
     "step_us": {"p50": 50.0, "p99": 80.0}, "truth": {"position_rmse_m": 0.05, "odometry_position_rmse_m": 1.0}})";

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 calibrate::StaticStudy sample_static() {
   std::vector<calibrate::PlaceStudy> places;
   for (const double range_m : {1.0, 2.0, 3.0, 4.0}) {
-    calibrate::PlaceStudy place{.place = {"a", range_m, 0.1, {}}, .scans = 10, .sightings = 10};
+    calibrate::PlaceStudy place{.place = {"a", range_m, 0.1, {}}, .scans = 10, .observations = 10};
     place.range_error_m = 0.02 * range_m + 0.01;
     place.covariance = Eigen::Matrix2d{{1e-4, 0.0}, {0.0, 1e-6}};
     places.push_back(place);
@@ -34,7 +34,7 @@ TEST(StaticStudyReport, JsonHasEveryFigure) {
 TEST(StaticStudyReport, TextSaysWhatIsNotTold) {
   const std::string text = to_text(sample_static());
   EXPECT_THAT(text, HasSubstr("range scale"));
-  EXPECT_THAT(text, HasSubstr("note: the smallest usable range is not told"));
+  EXPECT_THAT(text, HasSubstr("note: the smallest usable range is not observable"));
 }
 
 #ifdef WAYMARK_CHROMIUM

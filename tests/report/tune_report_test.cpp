@@ -23,10 +23,10 @@ study::TunedKey key(std::string name, double after) {
 study::TuneResult sample_tune() {
   study::TuneResult result{.keys = {key("sensor.range_sigma_m", 0.1), key("sensor.bearing_sigma_deg", 1.0)},
                            .idle_keys = {"motion.turn_var_rad2_per_m"},
-                           .sightings = 1000,
+                           .observations = 1000,
                            .before = 1.0,
                            .after = 2.0,
-                           .held_out = {{"0 to 25 % of the sightings", 1.0, 1.9}, {"all", 1.0, 1.8}},
+                           .held_out = {{"0 to 25 % of the observations", 1.0, 1.9}, {"all", 1.0, 1.8}},
                            .logs = {{"LOG", 1.0, 2.0}},
                            .runs = 77};
   result.keys[1].open_low = true;

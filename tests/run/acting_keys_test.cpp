@@ -18,7 +18,7 @@ LogInfo log_of(const std::string& format) {
 TEST(ActingKeys, OfAnEkfOverAFolderAreNotThoseOfOthers) {
   const std::string yaml = acting_yaml({}, log_of("log folder"), OdometryKind::kWheels);
   for (const char* part : {"\nsim:", "\nfastslam:", "\npixel:", "\ncamera:", "\ncorners:", "\nmarkers:",
-                           "\ninput:", "\ncar:", "\nassociation:", "localize", "least_leg"})
+                           "\ninput:", "\ncar:", "\nassociation:", "localize", "keyframe_distance"})
     EXPECT_THAT(yaml, Not(HasSubstr(part)));
   for (const char* part : {"filter:", "\nekf:", "\nwheels:", "\nsensor:", "\nsmooth:\n", "  run: false"})
     EXPECT_THAT(yaml, HasSubstr(part));

@@ -54,26 +54,27 @@ TEST(Config, ShowsTheKeysThatAPageTellsAUserToSet) {
     if (entry.path().extension() == ".md") pages += read_file(entry.path()).value();
   Config config;
   const Schema schema = describe(config);
-  for (const auto& key : schema.keys())
+  for (const auto& key : schema.keys()) {
     if (schema.is_shown(key)) EXPECT_NE(pages.find(key), std::string::npos) << key;
+  }
 }
 
 TEST(Config, OneKeySetsWhatSeveralPartsShare) {
   const auto config = resolve_config(
-      {{}, {"camera.vibration_deg=0.2", "motion.turn_scale_sigma=0.01", "pixel.most_candidates=5"}});
+      {{}, {"camera.jitter_deg=0.2", "motion.turn_scale_sigma=0.01", "pixel.max_candidates=5"}});
   ASSERT_TRUE(config.ok());
-  EXPECT_EQ(config->pixel.vibration_deg, 0.2);
-  EXPECT_EQ(config->markers.mount_sigma_deg, 0.2);
+  EXPECT_EQ(config->pixel.jitter_deg, 0.2);
+  EXPECT_EQ(config->markers.jitter_deg, 0.2);
   EXPECT_EQ(config->ekf.odometry.turn_scale_sigma, 0.01);
   EXPECT_EQ(config->smooth.turn_scale_sigma, 0.01);
-  EXPECT_EQ(config->pixel.most_candidates, 5);
-  EXPECT_EQ(config->tracker.new_corners.most_candidates, 5);
+  EXPECT_EQ(config->pixel.max_candidates, 5);
+  EXPECT_EQ(config->tracker.new_corners.max_candidates, 5);
   const Config usual;
-  EXPECT_EQ(usual.pixel.vibration_deg, usual.markers.mount_sigma_deg);
+  EXPECT_EQ(usual.pixel.jitter_deg, usual.markers.jitter_deg);
   EXPECT_EQ(usual.ekf.odometry.speed_scale_sigma, usual.smooth.speed_scale_sigma);
   EXPECT_EQ(usual.ekf.odometry.turn_scale_sigma, usual.smooth.turn_scale_sigma);
   EXPECT_EQ(usual.ekf.odometry.turn_bias_sigma_degps, usual.smooth.turn_bias_sigma_degps);
-  EXPECT_EQ(usual.pixel.most_candidates, usual.tracker.new_corners.most_candidates);
+  EXPECT_EQ(usual.pixel.max_candidates, usual.tracker.new_corners.max_candidates);
 }
 
 TEST(Config, LaterSettingsWin) {

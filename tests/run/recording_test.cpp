@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/pictures.hpp"
+#include "slam/images.hpp"
 #include "workbench/logs/event_list.hpp"
 #include "workbench/logs/map_files.hpp"
 #include "workbench/run/make_filter.hpp"
@@ -111,17 +111,17 @@ Result<Recording> record_room(std::vector<std::string> settings, const TimeSpan&
   return record(*opened->source, opened->config, span);
 }
 
-TEST(Recording, PicturesGiveTheSameBitsForOneAndTwoThreads) {
+TEST(Recording, ImagesGiveTheSameBitsForOneAndTwoThreads) {
   const auto one = record_room({}, {.to_s = 4.0});
   const auto two = record_room({"threads=2"}, {.to_s = 4.0});
   ASSERT_TRUE(one.ok() && two.ok());
   ASSERT_EQ(one->trajectory.size(), two->trajectory.size());
   for (std::size_t i = 0; i < one->trajectory.size(); ++i)
     ASSERT_EQ(one->trajectory[i].pose, two->trajectory[i].pose);
-  EXPECT_EQ(one->film.frames().size(), two->film.frames().size());
+  EXPECT_EQ(one->image_strip.frames().size(), two->image_strip.frames().size());
 }
 
-/// Sightings used at stamps from..to, s.
+/// Observations used at stamps from..to, s.
 std::int64_t matches_between(const Recording& run, double from_s, double to_s) {
   return std::ranges::count_if(run.innovations, [&](const auto& each) {
     const double t_s = to_seconds(each.stamp - Stamp{});
@@ -176,11 +176,11 @@ TEST(Recording, ACamerasMapIsGoneOnFrom) {
   EXPECT_LT((here.position() - there.position()).norm(), 0.05);
 }
 
-TEST(Recording, LostPicturesAreBridged) {
+TEST(Recording, LostImagesAreBridged) {
   const auto run = record_room({"sim.image_drop_probability=0.5"}, {.to_s = 6.0});
   ASSERT_TRUE(run.ok());
   EXPECT_FALSE(run->error.has_value());
-  EXPECT_LT(run->counts.pictures, 130);
+  EXPECT_LT(run->counts.images, 130);
   EXPECT_GT(matches_between(*run, 5.0, 6.0), 0);
 }
 
@@ -204,10 +204,10 @@ std::optional<Error> error_of(EventContent content, const std::vector<std::strin
   return run->error;
 }
 
-TEST(Recording, PicturesAndPixelsOfACameraThatNobodyKnowsEndTheRunAndSayWhatToDo) {
+TEST(Recording, ImagesAndPixelsOfACameraThatNobodyKnowsEndTheRunAndSayWhatToDo) {
   const Observations pixels{{LandmarkId{LandmarkId::Family::kMarker, 1}, Pixel{100.0, 100.0}, std::nullopt}};
   for (const EventContent& content :
-       {EventContent(test::taken(0.0, test::noise_picture(1)).content), EventContent(pixels)}) {
+       {EventContent(test::taken(0.0, test::noise_image(1)).content), EventContent(pixels)}) {
     const auto error = error_of(content, {});
     ASSERT_TRUE(error.has_value());
     EXPECT_NE(error->message.find("camera.yaml, or set camera.width_px"), std::string::npos)
@@ -238,14 +238,14 @@ std::shared_ptr<const GreyImage> saturated(GreyImage image) {
   return std::make_shared<const GreyImage>(std::move(image));
 }
 
-/// What becomes of picture `number` of a camera that fails in every way, seven times of ten.
+/// What becomes of image `number` of a camera that fails in every way, seven times of ten.
 void damage(int number, Event event, std::vector<Event>& events) {
   auto& pixels = std::get<Image>(event.content).pixels;
   const int kind = number > 60 && number <= 180 ? number % 10 : 0;
-  if (kind == 1) pixels = test::plain_picture(0);
-  if (kind == 2) pixels = test::plain_picture(255);
+  if (kind == 1) pixels = test::plain_image(0);
+  if (kind == 2) pixels = test::plain_image(255);
   if (kind == 3) pixels = saturated(*pixels);
-  if (kind == 4) pixels = test::noise_picture(1, 640, 480);
+  if (kind == 4) pixels = test::noise_image(1, 640, 480);
   if (kind == 5) pixels = nullptr;
   if (kind == 6) events.push_back(event);
   if (kind == 7) event.stamp = event.stamp - duration_from_seconds(2.0);
@@ -254,18 +254,18 @@ void damage(int number, Event event, std::vector<Event>& events) {
 
 std::vector<Event> damaged_room(Source& room) {
   std::vector<Event> events;
-  int pictures = 0;
+  int images = 0;
   for (auto event = room.next(); event && *event && (*event)->stamp <= stamp_from_seconds(6.5);
        event = room.next()) {
     if (std::holds_alternative<Image>((*event)->content))
-      damage(++pictures, std::move(**event), events);
+      damage(++images, std::move(**event), events);
     else
       events.push_back(std::move(**event));
   }
   return events;
 }
 
-TEST(Recording, DamagedPicturesOfEveryKindAreSkippedAndNamed) {
+TEST(Recording, DamagedImagesOfEveryKindAreSkippedAndNamed) {
   auto opened = open_input("sim:room", {});
   ASSERT_TRUE(opened.ok());
   Given log(opened->source->info(), damaged_room(*opened->source));

@@ -70,12 +70,12 @@ TEST(Smoother, TakesRunsThatSawRangesOrBearingsAlone) {
     const auto smoothed = smooth(live.recording, live.config);
     ASSERT_TRUE(smoothed.ok()) << smoothed.error().message;
     expect_same_stamps(smoothed->trajectory, live.recording.trajectory);
-    EXPECT_GT(smoothed->sightings, 100U);
+    EXPECT_GT(smoothed->observations, 100U);
     EXPECT_EQ(smoothed->landmarks.size(), live.recording.filter->snapshot().landmarks.size());
   }
 }
 
-TEST(Smoother, PathBetweenSightingsIsThatOfTheOdometryBentToMeetThem) {
+TEST(Smoother, PathBetweenObservationsIsThatOfTheOdometryBentToMeetThem) {
   const LiveRun live = drive({});
   const auto smoothed = smooth(live.recording, live.config).value();
   const RunGraph graph = graph_of(live.recording, live.config);
@@ -87,16 +87,16 @@ TEST(Smoother, PathBetweenSightingsIsThatOfTheOdometryBentToMeetThem) {
   }
 }
 
-TEST(Smoother, LeavesOutWhatIsSeenOnShortLegs) {
-  const LiveRun live = drive({"smooth.least_leg_m=0.3", "smooth.least_leg_deg=20"});
+TEST(Smoother, LeavesOutWhatIsSeenInShortIntervals) {
+  const LiveRun live = drive({"smooth.keyframe_distance_m=0.3", "smooth.keyframe_turn_deg=20"});
   const RunGraph graph = graph_of(live.recording, live.config);
   ASSERT_GT(graph.steps.size(), 10U);
-  for (const Leg& leg : graph.graph.legs) {
-    const Pose2 moved = motion_of(leg, Calibration::Zero()).increment;
+  for (const Interval& interval : graph.graph.intervals) {
+    const Pose2 moved = motion_of(interval, Calibration::Zero()).increment;
     EXPECT_TRUE(moved.position().norm() >= 0.3 || std::abs(moved.theta_rad) >= to_radians(20.0));
   }
   Config any = live.config;
-  any.smooth.least_leg_m = any.smooth.least_leg_deg = 0.0;
+  any.smooth.keyframe_distance_m = any.smooth.keyframe_turn_deg = 0.0;
   EXPECT_GT(graph_of(live.recording, any).steps.size(), 2 * graph.steps.size());
   EXPECT_EQ(graph_of(live.recording, any, {Calibration::Zero(), graph.steps}).steps, graph.steps);
 }

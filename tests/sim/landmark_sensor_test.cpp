@@ -79,10 +79,10 @@ TEST(SimLandmarkSensor, SeesAllRoundWithAFullFieldOfView) {
 
 TEST(SimLandmarkSensor, MeasuresWhatItIsToldTo) {
   SensorOptions options = ideal_sensor();
-  options.observe = Observe::kRange;
+  options.observe = SensorKind::kRange;
   EXPECT_NEAR(std::get<Range>(scan_once(options, {}, {landmark(0, 2.0, 0.5)})[0].value).range_m,
               std::hypot(2.0, 0.5), 1e-12);
-  options.observe = Observe::kBearing;
+  options.observe = SensorKind::kBearing;
   EXPECT_NEAR(std::get<Bearing>(scan_once(options, {}, {landmark(0, 2.0, 0.5)})[0].value).bearing_rad,
               std::atan2(0.5, 2.0), 1e-12);
 }
@@ -124,7 +124,7 @@ TEST(SimLandmarkSensor, MisreadsAsOftenAsStatedAndNeverAsItself) {
   EXPECT_NEAR(mean(options, landmarks, is_read_as(2)), 0.1, band(0.1));
 }
 
-TEST(SimLandmarkSensor, ReportsFalseSightingsAsOftenAsStated) {
+TEST(SimLandmarkSensor, ReportsFalseObservationsAsOftenAsStated) {
   SensorOptions options;
   options.false_probability = 0.4;
   const std::vector out_of_sight{landmark(0, -2.0, 0.0), landmark(1, -3.0, 0.0)};
@@ -158,7 +158,7 @@ TEST(SimLandmarkSensor, ClutterAccompaniesWhatIsReportedWithoutIdentity) {
   EXPECT_NEAR(mean(options, landmarks, clutter), 0.3, 2.0 * band(0.15));
 }
 
-TEST(SimLandmarkSensor, FalseSightingInAnEmptyWorldHasANewIdentity) {
+TEST(SimLandmarkSensor, FalseObservationInAnEmptyWorldHasANewIdentity) {
   SensorOptions options;
   options.false_probability = 1.0;
   const auto seen = scan_once(options, {}, {});

@@ -72,7 +72,7 @@ TEST(SimOptions, KeysSetTheirFields) {
   EXPECT_EQ(options.path.shape, Shape::kFigureEight);
   EXPECT_EQ(options.world.landmarks, 7);
   EXPECT_EQ(options.wheels.odometry, OdometryKind::kPose);
-  EXPECT_EQ(options.sensor.observe, Observe::kBearing);
+  EXPECT_EQ(options.sensor.observe, SensorKind::kBearing);
   EXPECT_FALSE(options.sensor.identities);
   EXPECT_EQ(options.truth.rate_hz, 0.0);
 }

@@ -41,23 +41,23 @@ TEST_P(EveryShape, IsClosedAndConnected) {
 TEST_P(EveryShape, StartsAwayFromTheOriginAndStaysInItsSquare) {
   const Path lap = path(3);
   EXPECT_GT(lap.front().T_world_start.position().norm(), 0.5);
-  for (const Leg& leg : lap) {
+  for (const PathSegment& segment : lap) {
     for (double f = 0.0; f <= 1.0; f += 0.05)
-      EXPECT_LE(leg.at(f).position().cwiseAbs().maxCoeff(), 3.0 + 1e-9);
+      EXPECT_LE(segment.at(f).position().cwiseAbs().maxCoeff(), 3.0 + 1e-9);
   }
 }
 
-// The closed formula against the least distance to many points of the leg.
+// The closed formula against the least distance to many points of the segment.
 TEST_P(EveryShape, DistanceIsThatToTheNearestPoint) {
   RandomStream random(1, StreamPurpose::kWorld);
-  for (const Leg& leg : path(4)) {
+  for (const PathSegment& segment : path(4)) {
     const double x_m = random.uniform(-5.0, 5.0);
     const Eigen::Vector2d p(x_m, random.uniform(-5.0, 5.0));
     double nearest_m = 1e9;
     for (int i = 0; i <= 20000; ++i)
-      nearest_m = std::min(nearest_m, (leg.at(i / 20000.0).position() - p).norm());
-    EXPECT_LE(leg.distance_m(p), nearest_m + 1e-12);
-    EXPECT_NEAR(leg.distance_m(p), nearest_m, 1e-3);
+      nearest_m = std::min(nearest_m, (segment.at(i / 20000.0).position() - p).norm());
+    EXPECT_LE(segment.distance_m(p), nearest_m + 1e-12);
+    EXPECT_NEAR(segment.distance_m(p), nearest_m, 1e-3);
   }
 }
 

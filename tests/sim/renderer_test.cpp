@@ -36,8 +36,8 @@ CameraOptions some_camera(double k1 = -0.2) {
 
 /// Grey to a fraction: the mean of what many noisy images would show.
 GreyImage render(const Camera& camera, const Scene& scene, const Viewpoint& viewpoint, int threads = 1) {
-  ThreadTeam team(threads);
-  Renderer renderer(camera, team);
+  ThreadPool pool(threads);
+  Renderer renderer(camera, pool);
   renderer.expose(scene.textures, scene.rectangles, viewpoint, 1.0);
   return renderer.develop({.weights = {0.6F, 0.19F, 0.01F, 0.0F}});
 }

@@ -68,7 +68,7 @@ TEST(Rooms, SomebodyWalksInTheRoom) {
 
 TEST(Rooms, ASeedDecidesWhatIsPaintedAndWhereItStands) {
   const auto look = [](const Built& built) {
-    const RipMap& wall = built.scene.textures.front();
+    const SummedMipmap& wall = built.scene.textures.front();
     return std::vector<int>(wall.texels(), wall.texels() + 100000);
   };
   const Built one = build("room", 1), again = build("room", 1), other = build("room", 2);

@@ -369,7 +369,7 @@ TEST(Simulation, SensorAndWheelsErrIndependently) {
 }
 
 /// A short drive through a small room.
-SimOptions short_film() {
+SimOptions short_camera_run() {
   SimOptions options = *scenario("room");
   options.path.side_m = 1.0;
   options.path.corner_radius_m = 0.0;
@@ -380,7 +380,7 @@ SimOptions short_film() {
 }
 
 TEST(Simulation, RoomHasAnImageAndATruePoseThirtyTimesASecond) {
-  const Log log = simulate(short_film());
+  const Log log = simulate(short_camera_run());
   const auto images = log.all<Image>();
   const auto truth = log.all<Truth>();
   ASSERT_GT(images.size(), 60u);
@@ -393,8 +393,8 @@ TEST(Simulation, RoomHasAnImageAndATruePoseThirtyTimesASecond) {
 }
 
 TEST(Simulation, ImagesAreTheSameBitsForASeedOnAnyNumberOfThreads) {
-  SimOptions options = short_film();
-  options.film.rate_hz = 5.0;
+  SimOptions options = short_camera_run();
+  options.camera_simulator.rate_hz = 5.0;
   const auto images_of = [&](std::uint64_t seed, int threads) {
     std::vector<GreyImage> images;
     auto simulation = Simulation::make("test", options, seed, threads);
@@ -411,10 +411,10 @@ TEST(Simulation, ImagesAreTheSameBitsForASeedOnAnyNumberOfThreads) {
 }
 
 TEST(Simulation, LostImagesLeaveTheOthersAsTheyWere) {
-  SimOptions options = short_film();
-  options.film.rate_hz = 10.0;
+  SimOptions options = short_camera_run();
+  options.camera_simulator.rate_hz = 10.0;
   const auto all = simulate(options).all<Image>();
-  options.film.drop_probability = 0.5;
+  options.camera_simulator.drop_probability = 0.5;
   const auto some = simulate(options).all<Image>();
   EXPECT_LT(some.size(), all.size() - 5);
   EXPECT_GT(some.size(), 5u);
@@ -426,15 +426,15 @@ TEST(Simulation, LostImagesLeaveTheOthersAsTheyWere) {
 }
 
 TEST(Simulation, TellsTheCameraInTheKeysOfItsModel) {
-  SimOptions options = short_film();
-  options.film.mount.pitch_deg = 3.0;
+  SimOptions options = short_camera_run();
+  options.camera_simulator.mount.pitch_deg = 3.0;
   auto simulation = Simulation::make("test", options, 1);
   ASSERT_TRUE(simulation.ok());
   const auto camera = configured<CameraOptions>({(*simulation)->info(), {}});
   EXPECT_EQ(camera.width_px, 320);
   EXPECT_NEAR(camera.fu_px, 160.0 / std::tan(to_radians(30.0)), 1e-9);
-  EXPECT_EQ(camera.distortion.k1, options.film.distortion.k1);
-  EXPECT_EQ(camera.mount.z_m, options.film.mount.z_m);
+  EXPECT_EQ(camera.distortion.k1, options.camera_simulator.distortion.k1);
+  EXPECT_EQ(camera.mount.z_m, options.camera_simulator.mount.z_m);
   EXPECT_EQ(camera.mount.pitch_deg, 3.0);
 }
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::size_t kRays = 160;
 
-/// A rip map of random texels, whose levels are not reductions of one another.
+/// A summed mipmap of random texels, whose levels are not reductions of one another.
 struct RandomTexture {
-  RandomTexture(RipLayout the_layout, RandomStream& random) : layout(the_layout), texels(layout.size()) {
+  RandomTexture(MipmapLayout the_layout, RandomStream& random) : layout(the_layout), texels(layout.size()) {
     for (int lv = 0; lv < layout.levels; ++lv)
       for (int lu = 0; lu < layout.levels; ++lu) fill(lu, lv, random);
   }
@@ -32,7 +32,7 @@ struct RandomTexture {
     }
   }
 
-  RipLayout layout;
+  MipmapLayout layout;
   std::vector<std::uint16_t> texels;
 };
 

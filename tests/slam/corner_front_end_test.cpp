@@ -9,14 +9,14 @@
 #include "support/allocation_counter.hpp"
 #include "waymark/slam/pipeline.hpp"
 
-#include "pictures.hpp"
+#include "images.hpp"
 #include "workbench/run/config.hpp"
 
 namespace waymark {
 namespace {
 
-using test::noise_picture;
-using test::plain_picture;
+using test::noise_image;
+using test::plain_image;
 using test::taken;
 
 /// A robot with a camera: what comes out of the pipeline, step by step.
@@ -25,14 +25,14 @@ struct Robot {
     Stamp stamp;
     Pose2 dead_reckoning;
     PoseEstimate pose;
-    bool picture = false;
+    bool frame = false;
   };
 
   explicit Robot(const PipelineOptions& options = {})
       : pipeline(
             filter, options, {}, {}, Observe::kPixel,
             [this](const Step& step) {
-              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.picture != nullptr});
+              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.image != nullptr});
             },
             &front_end) {}
 
@@ -50,38 +50,38 @@ struct Robot {
   Pipeline pipeline;
 };
 
-TEST(CornerFrontEnd, LooksIntoAPictureFromWhereItWasTaken) {
+TEST(CornerFrontEnd, LooksIntoAnImageFromWhereItWasTaken) {
   Robot robot;
-  robot.drive(1.0, {taken(0.25, noise_picture(1)), taken(0.75, noise_picture(2))});
+  robot.drive(1.0, {taken(0.25, noise_image(1)), taken(0.75, noise_image(2))});
   ASSERT_EQ(robot.steps.size(), 4U);
-  EXPECT_TRUE(robot.steps[1].picture && robot.steps[2].picture);
+  EXPECT_TRUE(robot.steps[1].image && robot.steps[2].image);
   EXPECT_NEAR(robot.steps[1].dead_reckoning.x_m, 0.25, 1e-9);
   EXPECT_NEAR(robot.steps[2].dead_reckoning.x_m, 0.75, 1e-9);
-  EXPECT_EQ(robot.pipeline.counts().pictures, 2);
+  EXPECT_EQ(robot.pipeline.counts().images, 2);
 }
 
-TEST(CornerFrontEnd, PassesOverPicturesThatDoNotFitTheCamera) {
+TEST(CornerFrontEnd, PassesOverImagesThatDoNotFitTheCamera) {
   Robot robot;
   robot.drive(1.0, {taken(0.2, nullptr), taken(0.4, std::make_shared<const GreyImage>()),
-                    taken(0.6, noise_picture(1, 640, 480)), taken(0.8, noise_picture(1, 240, 320))});
+                    taken(0.6, noise_image(1, 640, 480)), taken(0.8, noise_image(1, 240, 320))});
   EXPECT_EQ(robot.pipeline.counts().misfits, 4);
-  EXPECT_EQ(robot.pipeline.counts().pictures, 0);
+  EXPECT_EQ(robot.pipeline.counts().images, 0);
   EXPECT_NEAR(robot.steps.back().pose.T_world_robot.x_m, 1.0, 1e-9);
 }
 
-TEST(CornerFrontEnd, PassesOverPicturesThatComeTwice) {
+TEST(CornerFrontEnd, PassesOverImagesThatComeTwice) {
   Robot robot;
-  robot.drive(1.0, {taken(0.2, noise_picture(1)), taken(0.2, noise_picture(2)), taken(0.4, noise_picture(1)),
-                    taken(0.6, noise_picture(3))});
+  robot.drive(1.0, {taken(0.2, noise_image(1)), taken(0.2, noise_image(2)), taken(0.4, noise_image(1)),
+                    taken(0.6, noise_image(3))});
   EXPECT_EQ(robot.pipeline.counts().repeats, 2);
-  EXPECT_EQ(robot.pipeline.counts().pictures, 2);
+  EXPECT_EQ(robot.pipeline.counts().images, 2);
 }
 
-TEST(CornerFrontEnd, PutsALatePictureInItsPlaceAndDropsOneThatIsTooLate) {
+TEST(CornerFrontEnd, PutsALateImageInItsPlaceAndDropsOneThatIsTooLate) {
   Robot robot({.reorder_window_s = 0.3});
-  robot.drive(1.0, {taken(0.4, noise_picture(1)), taken(0.2, noise_picture(2)), taken(0.8, noise_picture(3)),
-                    taken(0.1, noise_picture(4))});
-  EXPECT_EQ(robot.pipeline.counts().pictures, 3);
+  robot.drive(1.0, {taken(0.4, noise_image(1)), taken(0.2, noise_image(2)), taken(0.8, noise_image(3)),
+                    taken(0.1, noise_image(4))});
+  EXPECT_EQ(robot.pipeline.counts().images, 3);
   EXPECT_EQ(robot.pipeline.counts().late, 1);
   EXPECT_TRUE(std::ranges::is_sorted(robot.steps, {}, &Robot::Seen::stamp));
 }
@@ -90,18 +90,18 @@ TEST(CornerFrontEnd, FindsNothingInBlackAndWhiteAndGoesOnByDeadReckoning) {
   Robot robot;
   std::vector<Event> seen;
   for (int i = 1; i < 30; ++i)
-    seen.push_back(taken(i / 30.0, i % 3 == 0 ? noise_picture(1) : plain_picture(i % 3 == 1 ? 0 : 255)));
+    seen.push_back(taken(i / 30.0, i % 3 == 0 ? noise_image(1) : plain_image(i % 3 == 1 ? 0 : 255)));
   robot.drive(1.0, std::move(seen));
-  EXPECT_EQ(robot.pipeline.counts().pictures, 29);
+  EXPECT_EQ(robot.pipeline.counts().images, 29);
   const PoseEstimate& end = robot.steps.back().pose;
   EXPECT_NEAR(end.T_world_robot.x_m, 1.0, 5.0 * std::sqrt(end.covariance(0, 0)) + 1e-9);
   EXPECT_TRUE(end.covariance.allFinite());
 }
 
-TEST(CornerFrontEnd, PicturesAreIgnoredWhereNobodyLooks) {
+TEST(CornerFrontEnd, ImagesAreIgnoredWhereNobodyLooks) {
   PixelSlam filter({}, {});
   Pipeline pipeline(filter, {}, {}, {}, Observe::kPixel, [](const Step&) {});
-  pipeline.push(taken(0.5, noise_picture(1)));
+  pipeline.push(taken(0.5, noise_image(1)));
   pipeline.finish();
   EXPECT_EQ(pipeline.counts().events, 0);
 }
@@ -113,9 +113,9 @@ TEST(CornerFrontEnd, TakesNoMemoryOnceTheMapIsFull) {
   config.pixel.capacity = 20;
   PixelSlam filter(config.pixel, config.camera);
   CornerFrontEnd front_end(filter, config.tracker, config.search, Camera(config.camera), 1);
-  constexpr int kPictures = 240, kCounted = 120;
+  constexpr int kImages = 240, kCounted = 120;
   std::int64_t allocations = 0, matched = 0;
-  for (int i = 0; i < kPictures;) {
+  for (int i = 0; i < kImages;) {
     const auto event = opened->source->next();
     ASSERT_TRUE(event.ok() && event->has_value());
     const auto* image = std::get_if<Image>(&(**event).content);
@@ -123,10 +123,10 @@ TEST(CornerFrontEnd, TakesNoMemoryOnceTheMapIsFull) {
     const test::AllocationCount count;
     filter.predict({Pose2{0.2 / 30.0, 0.0, 0.0}, Eigen::Vector3d(1e-8, 1e-8, 1e-8).asDiagonal()});
     matched += front_end.see(*image->pixels).count(Outcome::kMatched);
-    if (++i > kPictures - kCounted) allocations += count.allocations();
+    if (++i > kImages - kCounted) allocations += count.allocations();
   }
   EXPECT_EQ(allocations, 0);
-  EXPECT_GT(matched, kPictures);
+  EXPECT_GT(matched, kImages);
 }
 
 }  // namespace

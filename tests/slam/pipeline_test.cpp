@@ -54,7 +54,7 @@ struct Fixture {
   Pipeline pipeline;
 };
 
-Observation sighting(int number, Measurement value = RangeBearing{2.0, 0.5}) {
+Observation landmark_observation(int number, Measurement value = RangeBearing{2.0, 0.5}) {
   return {LandmarkId{LandmarkId::Family::kMarker, number}, value, std::nullopt};
 }
 
@@ -65,7 +65,7 @@ Event speed(double seconds, double v_mps) { return {at(seconds), Velocity{v_mps,
 
 TEST(Pipeline, PutsLateEventsInTheirPlace) {
   Fixture f;
-  f.push({speed(0.0, 1.0), speed(1.0, 0.0), seen(0.6, {sighting(1)}), speed(2.0, 0.0)});
+  f.push({speed(0.0, 1.0), speed(1.0, 0.0), seen(0.6, {landmark_observation(1)}), speed(2.0, 0.0)});
   ASSERT_EQ(f.filter.poses.size(), 1U);
   EXPECT_NEAR(f.filter.poses[0].x_m, 0.6, 1e-9);
   EXPECT_TRUE(std::ranges::is_sorted(f.stamps));
@@ -73,7 +73,7 @@ TEST(Pipeline, PutsLateEventsInTheirPlace) {
 
 TEST(Pipeline, DropsAndCountsWhatComesTooLate) {
   Fixture f({.reorder_window_s = 0.2});
-  f.push({speed(0.0, 1.0), speed(1.0, 0.0), speed(2.0, 0.0), seen(0.5, {sighting(1)})});
+  f.push({speed(0.0, 1.0), speed(1.0, 0.0), speed(2.0, 0.0), seen(0.5, {landmark_observation(1)})});
   EXPECT_TRUE(f.filter.batches.empty());
   EXPECT_EQ(f.pipeline.counts().late, 1);
 }
@@ -84,7 +84,8 @@ TEST(Pipeline, TimesTheStepsInWhichSomethingWasObserved) {
   Pipeline pipeline(filter, {}, {}, {}, Observe::kRangeBearing, [&](const Step& step) {
     (step.correction != nullptr ? corrected : others).push_back(step.cpu);
   });
-  for (Event& event : std::vector<Event>{speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)})
+  for (Event& event :
+       std::vector<Event>{speed(0.0, 1.0), seen(0.5, {landmark_observation(1)}), speed(1.0, 1.0)})
     pipeline.push(std::move(event));
   pipeline.finish();
   ASSERT_EQ(corrected.size(), 1U);
@@ -94,16 +95,17 @@ TEST(Pipeline, TimesTheStepsInWhichSomethingWasObserved) {
 
 TEST(Pipeline, TreatsObservationsOfOneStampAsOneBatch) {
   Fixture f;
-  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), seen(0.5, {sighting(2), sighting(3)}), speed(1.0, 1.0)});
+  f.push({speed(0.0, 1.0), seen(0.5, {landmark_observation(1)}),
+          seen(0.5, {landmark_observation(2), landmark_observation(3)}), speed(1.0, 1.0)});
   ASSERT_EQ(f.filter.batches.size(), 1U);
   EXPECT_EQ(f.filter.batches[0].size(), 3U);
 }
 
-TEST(Pipeline, MovesToTheMomentOfTheSightingNotOfItsStamp) {
+TEST(Pipeline, MovesToTheMomentOfTheObservationNotOfItsStamp) {
   LandmarkSensor sensor;
   sensor.delay_s = 0.2;
   Fixture f({}, sensor);
-  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
+  f.push({speed(0.0, 1.0), seen(0.5, {landmark_observation(1)}), speed(1.0, 1.0)});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }
 
@@ -111,7 +113,7 @@ TEST(Pipeline, MovesWhenTheRobotFollowsItsCommand) {
   OdometryOptions odometry;
   odometry.response_s = 0.2;
   Fixture f({}, {}, Observe::kRangeBearing, odometry);
-  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1)}), speed(1.0, 1.0)});
+  f.push({speed(0.0, 1.0), seen(0.5, {landmark_observation(1)}), speed(1.0, 1.0)});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.3, 1e-9);
 }
 
@@ -121,9 +123,9 @@ TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
   sensor.range_sigma_ratio = 0.05;
   sensor.bearing_sigma_deg = 2.0;
   Fixture f({}, sensor);
-  Observation own = sighting(2);
+  Observation own = landmark_observation(2);
   own.covariance = Eigen::Matrix2d::Identity();
-  f.push({seen(0.0, {sighting(1), own})});
+  f.push({seen(0.0, {landmark_observation(1), own})});
   const auto& batch = f.filter.batches.at(0);
   EXPECT_NEAR((*batch[0].covariance)(0, 0), 0.2 * 0.2, 1e-12);
   EXPECT_NEAR((*batch[0].covariance)(1, 1), to_radians(2.0) * to_radians(2.0), 1e-12);
@@ -132,10 +134,10 @@ TEST(Pipeline, GivesTheSensorsNoiseToObservationsThatBringNone) {
 
 TEST(Pipeline, LeavesPixelsAsTheyCome) {
   Fixture f({}, {}, Observe::kPixel);
-  Observation own = sighting(2, Pixel{3.0, 4.0});
+  Observation own = landmark_observation(2, Pixel{3.0, 4.0});
   own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
-  f.push(
-      {seen(0.0, {sighting(1, Pixel{1.0, 2.0}), own, sighting(3, Pixel{std::nan(""), 1.0}), sighting(4)})});
+  f.push({seen(0.0, {landmark_observation(1, Pixel{1.0, 2.0}), own,
+                     landmark_observation(3, Pixel{std::nan(""), 1.0}), landmark_observation(4)})});
   const auto& batch = f.filter.batches.at(0);
   ASSERT_EQ(batch.size(), 2U);
   EXPECT_FALSE(batch[0].covariance.has_value());
@@ -146,9 +148,9 @@ TEST(Pipeline, LeavesPixelsAsTheyCome) {
 
 TEST(Pipeline, UsesThePartThatIsAskedFor) {
   Fixture f({}, {}, Observe::kBearing);
-  Observation own = sighting(2);
+  Observation own = landmark_observation(2);
   own.covariance = Eigen::Matrix2d{{1.0, 0.5}, {0.5, 4.0}};
-  f.push({seen(0.0, {own, sighting(1, Range{3.0})})});
+  f.push({seen(0.0, {own, landmark_observation(1, Range{3.0})})});
   ASSERT_EQ(f.filter.batches.at(0).size(), 1U);
   const auto& used = f.filter.batches[0][0];
   EXPECT_EQ(std::get<Bearing>(used.value).bearing_rad, 0.5);
@@ -161,7 +163,7 @@ TEST(Pipeline, HandsOnDistancesInsteadOfRanges) {
   sensor.range_scale = 1.1;
   sensor.range_offset_m = 0.5;
   Fixture f({}, sensor, Observe::kRange);
-  f.push({speed(0.0, 1.0), seen(0.5, {sighting(1, Range{1.1 * 4.0 + 0.5})})});
+  f.push({speed(0.0, 1.0), seen(0.5, {landmark_observation(1, Range{1.1 * 4.0 + 0.5})})});
   ASSERT_EQ(f.filter.batches.size(), 1U);
   EXPECT_NEAR(std::get<Range>(f.filter.batches[0][0].value).range_m, 4.0, 1e-12);
 }
@@ -171,16 +173,17 @@ TEST(Pipeline, DropsAndCountsWhatTheSensorCannotHaveSeen) {
   sensor.max_range_m = 5.0;
   Fixture f({}, sensor);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  f.push(
-      {seen(0.0, {sighting(1, RangeBearing{6.0, 0.0}), sighting(1, RangeBearing{-1.0, 0.0}),
-                  sighting(1, RangeBearing{nan, 0.0}), sighting(1, RangeBearing{1.0, nan}), sighting(1)})});
+  f.push({seen(
+      0.0, {landmark_observation(1, RangeBearing{6.0, 0.0}), landmark_observation(1, RangeBearing{-1.0, 0.0}),
+            landmark_observation(1, RangeBearing{nan, 0.0}), landmark_observation(1, RangeBearing{1.0, nan}),
+            landmark_observation(1)})});
   EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
   EXPECT_EQ(f.pipeline.counts().unusable, 4);
 }
 
 TEST(Pipeline, CarriesOnOverAGapInTheOdometry) {
   Fixture f({.max_hold_s = 1.0});
-  f.push({speed(0.0, 1.0), speed(30.0, 1.0), seen(31.0, {sighting(1)})});
+  f.push({speed(0.0, 1.0), speed(30.0, 1.0), seen(31.0, {landmark_observation(1)})});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 2.0, 1e-9);
   EXPECT_EQ(f.pipeline.counts().odometry_gaps, 1);
 }
@@ -202,7 +205,7 @@ TEST(Pipeline, ProcessesLiveEventsAsSoonAsEveryStreamHasToldOfThem) {
   pipeline.hold(of(kWheelDevice, speed(0.0, 1.0)));
   EXPECT_EQ(pipeline.horizon().stamp(), std::nullopt);
   pipeline.hold(of(kWheelDevice, speed(1.0, 0.0)));
-  pipeline.hold(of(kCameraDevice, seen(0.8, {sighting(1)})));
+  pipeline.hold(of(kCameraDevice, seen(0.8, {landmark_observation(1)})));
   pipeline.process_until(pipeline.horizon().stamp().value());
   ASSERT_EQ(f.filter.poses.size(), 1U);
   EXPECT_NEAR(f.filter.poses[0].x_m, 0.6, 1e-9);
@@ -214,7 +217,7 @@ TEST(Pipeline, HeldEventsThatComeAfterTheirMomentAreLate) {
   f.pipeline.hold(speed(0.0, 1.0));
   f.pipeline.hold(speed(1.0, 1.0));
   f.pipeline.process_until(at(1.0));
-  f.pipeline.hold(seen(0.5, {sighting(1)}));
+  f.pipeline.hold(seen(0.5, {landmark_observation(1)}));
   f.pipeline.finish();
   EXPECT_TRUE(f.filter.batches.empty());
   EXPECT_EQ(f.pipeline.counts().late, 1);
@@ -222,17 +225,17 @@ TEST(Pipeline, HeldEventsThatComeAfterTheirMomentAreLate) {
 
 TEST(Pipeline, FollowsOneRobotAndCountsTheEventsOfOthers) {
   Fixture f;
-  f.push({of({3, 0}, speed(0.0, 1.0)), of({4, 0}, speed(0.1, 9.0)), of({3, 0}, seen(0.5, {sighting(1)})),
-          of({3, 0}, speed(1.0, 1.0))});
+  f.push({of({3, 0}, speed(0.0, 1.0)), of({4, 0}, speed(0.1, 9.0)),
+          of({3, 0}, seen(0.5, {landmark_observation(1)})), of({3, 0}, speed(1.0, 1.0))});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 0.5, 1e-9);
   EXPECT_EQ(f.pipeline.counts().other_robots, 1);
 }
 
 TEST(Pipeline, ARobotThatIsSeenIsNoLandmark) {
   Fixture f;
-  Observation robot = sighting(2);
+  Observation robot = landmark_observation(2);
   robot.id->family = LandmarkId::Family::kRobot;
-  f.push({seen(0.0, {sighting(1), robot})});
+  f.push({seen(0.0, {landmark_observation(1), robot})});
   EXPECT_EQ(f.filter.batches.at(0).size(), 1U);
   EXPECT_EQ(f.pipeline.counts().robots_seen, 1);
 }
@@ -243,7 +246,7 @@ TEST(Pipeline, TurnsByAGyroFromReadingToReading) {
           {at(0.0), YawRate{0.0}},
           {at(1.0), YawRate{0.2}},
           speed(1.0, 0.0),
-          seen(1.0, {sighting(1)})});
+          seen(1.0, {landmark_observation(1)})});
   EXPECT_NEAR(f.filter.poses.at(0).theta_rad, 0.1, 1e-12);
 }
 
@@ -251,7 +254,7 @@ TEST(Pipeline, TheResponseToCommandsMovesNoGyro) {
   OdometryOptions odometry;
   odometry.response_s = 0.2;
   Fixture f({}, {}, Observe::kRangeBearing, odometry);
-  f.push({speed(0.0, 1.0), {at(0.2), YawRate{0.5}}, seen(0.4, {sighting(1)}), speed(1.0, 1.0)});
+  f.push({speed(0.0, 1.0), {at(0.2), YawRate{0.5}}, seen(0.4, {landmark_observation(1)}), speed(1.0, 1.0)});
   EXPECT_NEAR(f.filter.poses.at(0).theta_rad, 0.1, 1e-12);
 }
 
@@ -259,7 +262,7 @@ TEST(Pipeline, ReportsOneStepPerStamp) {
   Fixture f;
   f.push({speed(0.0, 1.0),
           speed(0.5, 1.0),
-          seen(0.5, {sighting(1)}),
+          seen(0.5, {landmark_observation(1)}),
           {at(0.7), Truth{}},
           {at(0.8), Image{}},
           speed(1.0, 0.0)});

@@ -28,11 +28,11 @@ World drive(std::uint64_t seed, int steps) {
   world.truth.push_back(circle.truth());
   for (int i = 1; i <= steps; ++i) {
     const Motion motion = circle.move();
-    world.graph.legs.push_back({{{motion.increment, 0.1}}, motion.covariance});
+    world.graph.intervals.push_back({{{motion.increment, 0.1}}, motion.covariance});
     world.start.poses.push_back(world.start.poses.back() * motion.increment);
     world.truth.push_back(circle.truth());
     for (const Observation& seen : circle.look())
-      world.graph.sightings.push_back({i, seen.id->number, seen.value, *seen.covariance});
+      world.graph.observations.push_back({i, seen.id->number, seen.value, *seen.covariance});
   }
   for (const Eigen::Vector2d& p : world.landmarks)
     world.start.landmarks.emplace_back(p.x() + 0.3, p.y() - 0.4);
@@ -69,10 +69,10 @@ TEST(Solve, WhatIsLeftOverAndWhatWasFollowedMakeUpTheNoise) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const World world = drive(seed, 60);
     const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
-    ASSERT_EQ(solution.remainders.size(), world.graph.sightings.size());
+    ASSERT_EQ(solution.remainders.size(), world.graph.observations.size());
     for (std::size_t i = 0; i < solution.remainders.size(); ++i, ++count)
       ratio += (solution.remainders[i].residual.cwiseAbs2() + solution.remainders[i].followed)
-                   .cwiseQuotient(world.graph.sightings[i].covariance.diagonal());
+                   .cwiseQuotient(world.graph.observations[i].covariance.diagonal());
   }
   ratio /= count;
   // The mean of chi-squares of which at least half is random.
@@ -81,16 +81,16 @@ TEST(Solve, WhatIsLeftOverAndWhatWasFollowedMakeUpTheNoise) {
   EXPECT_NEAR(ratio[1], 1.0, 4.0 * sigma);
 }
 
-TEST(Solve, WhatIsLeftOverOfLegsAndWhatWasFollowedMakeUpTheirNoise) {
+TEST(Solve, WhatIsLeftOverOfIntervalsAndWhatWasFollowedMakeUpTheirNoise) {
   constexpr int kSeeds = 20;
   Eigen::Vector3d ratio = Eigen::Vector3d::Zero();
   double count = 0.0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const World world = drive(seed, 60);
     const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
-    ASSERT_EQ(solution.leg_remainders.size(), world.graph.legs.size());
-    for (const LegRemainder& leg : solution.leg_remainders) {
-      ratio += (leg.residual.cwiseAbs2() + leg.followed).cwiseQuotient(leg.stated);
+    ASSERT_EQ(solution.interval_remainders.size(), world.graph.intervals.size());
+    for (const IntervalRemainder& interval : solution.interval_remainders) {
+      ratio += (interval.residual.cwiseAbs2() + interval.followed).cwiseQuotient(interval.stated);
       ++count;
     }
   }
@@ -116,8 +116,8 @@ TEST(Solve, FindsWhereTheSensorSits) {
 TEST(Solve, OutliersDoNotDrawIt) {
   World world = drive(1, 60);
   const double clean_m = error_m(solve(world.graph, world.start).estimate, world);
-  for (std::size_t i = 5; i < world.graph.sightings.size(); i += 10)
-    std::get<RangeBearing>(world.graph.sightings[i].value).range_m += 3.0;
+  for (std::size_t i = 5; i < world.graph.observations.size(); i += 10)
+    std::get<RangeBearing>(world.graph.observations[i].value).range_m += 3.0;
   EXPECT_LT(error_m(solve(world.graph, world.start).estimate, world), clean_m + 0.05);
   EXPECT_GT(error_m(solve(world.graph, world.start, {.robust_dof = 1e6}).estimate, world), clean_m + 0.05);
 }
@@ -125,11 +125,11 @@ TEST(Solve, OutliersDoNotDrawIt) {
 TEST(Solve, TakesRangesOrBearingsAlone) {
   for (const bool ranges : {true, false}) {
     World world = drive(2, 60);
-    for (Sighting& sighting : world.graph.sightings) {
-      const auto z = std::get<RangeBearing>(sighting.value);
-      if (ranges) sighting.value = Range{z.range_m};
-      if (!ranges) sighting.value = Bearing{z.bearing_rad};
-      if (!ranges) sighting.covariance(0, 0) = sighting.covariance(1, 1);
+    for (ObservationEdge& observation : world.graph.observations) {
+      const auto z = std::get<RangeBearing>(observation.value);
+      if (ranges) observation.value = Range{z.range_m};
+      if (!ranges) observation.value = Bearing{z.bearing_rad};
+      if (!ranges) observation.covariance(0, 0) = observation.covariance(1, 1);
     }
     const Solution solution = solve(world.graph, world.start);
     EXPECT_LT(error_m(solution.estimate, world), 0.25) << (ranges ? "ranges" : "bearings");
@@ -141,8 +141,8 @@ TEST(Solve, FindsWhatTheOdometryWasLike) {
   Calibration wrong = Calibration::Zero();
   wrong[kSpeedScale] = -0.1;
   wrong[kTurnScale] = 0.2;
-  for (Leg& leg : world.graph.legs)
-    leg.steps[0].increment = calibrate(leg.steps[0].increment, 0.1, wrong).increment;
+  for (KeyframeInterval& interval : world.graph.intervals)
+    interval.steps[0].increment = calibrate(interval.steps[0].increment, 0.1, wrong).increment;
   world.graph.calibration_sigmas.head<6>() << 0.2, 0.2, 0.0, 0.0, 0.0, 0.0;
   const Solution solution = solve(world.graph, world.start);
   const Calibration& c = solution.estimate.calibration;
@@ -156,8 +156,8 @@ TEST(Solve, FindsWhatTheOdometryWasLike) {
 
 TEST(Solve, FindsWhatTheSensorWasLike) {
   World world = drive(3, 200);
-  for (Sighting& sighting : world.graph.sightings) {
-    auto& z = std::get<RangeBearing>(sighting.value);
+  for (ObservationEdge& observation : world.graph.observations) {
+    auto& z = std::get<RangeBearing>(observation.value);
     z = {1.05 * z.range_m + 0.2, z.bearing_rad + 0.03};
   }
   world.graph.calibration_sigmas.head<6>() << 0.0, 0.0, 0.0, 0.2, 1.0, 0.1;
@@ -172,7 +172,7 @@ TEST(Solve, FindsWhatTheSensorWasLike) {
 
 TEST(Solve, CovariancesThatTakeTooLongAreLeftOut) {
   const World world = drive(4, 20);
-  const Solution solution = solve(world.graph, world.start, {.most_covariance_work = 10.0});
+  const Solution solution = solve(world.graph, world.start, {.max_covariance_work = 10.0});
   EXPECT_TRUE(solution.pose_covariances.empty());
   EXPECT_LT(error_m(solution.estimate, world), 0.2);
 }

@@ -17,7 +17,7 @@ TuneProblem problem(std::vector<std::string> keys) {
 }
 
 double value(const TuneProblem& problem, const TunePoint& at) {
-  ThreadTeam alone(1);
+  ThreadPool alone(1);
   return problem.value(problem.total(problem.score(at, {}, {}, alone).value()));
 }
 

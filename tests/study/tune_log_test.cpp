@@ -5,7 +5,7 @@
 #include "support/io_support.hpp"
 
 #include "study_support.hpp"
-#include "workbench/study/sighting_score.hpp"
+#include "workbench/study/observation_score.hpp"
 
 namespace waymark::study {
 namespace {
@@ -31,18 +31,18 @@ TEST(TuneInput, MayHaveSettingsOfItsOwn) {
   EXPECT_THAT(input.assignments, ElementsAre("input.robot=3", "seed=2"));
 }
 
-TEST(TuneLog, EverySightingOfARunIsATermOfItsScore) {
+TEST(TuneLog, EveryObservationOfARunIsATermOfItsScore) {
   const auto log = TuneLog::open("sim:square", kQuickUser);
   ASSERT_TRUE(log.ok()) << log.error().message;
   EXPECT_EQ(log->odometry(), OdometryKind::kWheelAngles);
   UserSettings user = kQuickUser;
   user.assignments.emplace_back("sensor.range_sigma_m=0.2");
-  user.assignments.emplace_back("smooth.run=true");  // keeps the sightings
+  user.assignments.emplace_back("smooth.run=true");  // keeps the observations
   const auto run = run_and_score("sim:square", user);
   ASSERT_TRUE(run.ok());
   double longest_m = 0.0;
-  for (const auto& sighting : run->recording.sightings)
-    longest_m = std::max(longest_m, std::get<RangeBearing>(sighting.observation.value).range_m);
+  for (const auto& landmark_observation : run->recording.observations)
+    longest_m = std::max(longest_m, std::get<RangeBearing>(landmark_observation.observation.value).range_m);
   double expected = 0.0;
   for (const auto& [stamp, innovation] : run->recording.innovations)
     expected += log_likelihood(innovation, log_field_density(run->config, longest_m));
@@ -50,7 +50,7 @@ TEST(TuneLog, EverySightingOfARunIsATermOfItsScore) {
   ASSERT_TRUE(blocks.has_value());
   EXPECT_EQ(blocks->size(), kTuneBlocks);
   EXPECT_NEAR(total(*blocks).log_likelihood, expected, 1e-9 * std::abs(expected));
-  EXPECT_EQ(static_cast<std::size_t>(total(*blocks).sightings), run->recording.innovations.size());
+  EXPECT_EQ(static_cast<std::size_t>(total(*blocks).observations), run->recording.innovations.size());
 }
 
 TEST(TuneLog, ItsErrorIsThatOfTheAlignedPath) {
@@ -68,11 +68,11 @@ TEST(TuneLog, GivesNothingWhenStopped) {
   EXPECT_FALSE(log.sums({}, [] { return false; }).has_value());
 }
 
-TEST(TuneLog, SettingsThatDropSightingsGainNothing) {
+TEST(TuneLog, SettingsThatDropObservationsGainNothing) {
   const auto log = TuneLog::open("sim:square", kQuickUser).value();
   const TuneSums as_it_is = total(log.sums({}, {}).value());
   const TuneSums blind = total(log.sums({"sensor.max_range_m=1"}, {}).value());
-  EXPECT_EQ(blind.sightings, as_it_is.sightings);
+  EXPECT_EQ(blind.observations, as_it_is.observations);
   EXPECT_LT(blind.log_likelihood, as_it_is.log_likelihood);
 }
 
@@ -83,7 +83,7 @@ TEST(TuneLog, RefusesWhatHasNothingToTuneBy) {
   folder.write("velocity.csv", "stamp_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
   const auto blind = TuneLog::open(folder.path().string(), {});
   ASSERT_FALSE(blind.ok());
-  EXPECT_THAT(blind.error().message, HasSubstr("no sightings"));
+  EXPECT_THAT(blind.error().message, HasSubstr("no observations"));
 }
 
 }  // namespace

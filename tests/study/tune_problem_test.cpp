@@ -31,7 +31,7 @@ TEST(TuneProblem, RefusesLogsOfDifferentSensors) {
 }
 
 TEST(TuneProblem, RefusesKeysThatMakeNoDifferenceOnlyWhereTheyWereChosen) {
-  EXPECT_THAT(problem_of(request({"sim:square"}, {"fastslam.evidence_way_m"})),
+  EXPECT_THAT(problem_of(request({"sim:square"}, {"fastslam.information_distance_m"})),
               HasSubstr("makes no difference"));
   EXPECT_THAT(problem_of(request({"sim:square"}, {"motion.steer_var_rad2_m"})),
               HasSubstr("makes no difference"));
@@ -40,30 +40,30 @@ TEST(TuneProblem, RefusesKeysThatMakeNoDifferenceOnlyWhereTheyWereChosen) {
   EXPECT_GE(defaults->keys().size(), 3U);
 }
 
-TEST(TuneProblem, RefusesFewerSightingsThanKeys) {
+TEST(TuneProblem, RefusesFewerObservationsThanKeys) {
   const TempFolder folder;
   folder.write("log.yaml", "waymark_log: 1\nname: short\n");
   folder.write("velocity.csv", "stamp_s,v_mps,w_radps\n0,1,0\n1,1,0\n");
   folder.write("observations.csv", "stamp_s,id,range_m,bearing_rad\n0,1,3,0.1\n0.5,1,2.5,0.1\n");
   EXPECT_THAT(problem_of({.logs = {folder.path().string()}}),
-              HasSubstr("2 sightings are too few to tune 5 keys"));
+              HasSubstr("2 observations are too few to tune 5 keys"));
 }
 
 TEST(TuneProblem, FoldsAreStretchesOfALogOrLogs) {
   const auto one = TuneProblem::open(request({"sim:square"})).value();
   ASSERT_EQ(one.folds(), 4U);
-  ThreadTeam alone(1);
+  ThreadPool alone(1);
   const auto score = one.score(one.start(), {}, {}, alone).value();
   const TuneSums all = one.total(score);
-  double sightings = 0.0;
+  double observations = 0.0;
   for (std::size_t fold = 0; fold < 4; ++fold) {
     const TuneSums inside = one.total_of(score, fold);
-    EXPECT_NEAR(inside.sightings, all.sightings / 4.0, 0.05 * all.sightings) << one.fold_name(fold);
+    EXPECT_NEAR(inside.observations, all.observations / 4.0, 0.05 * all.observations) << one.fold_name(fold);
     EXPECT_NEAR(inside.log_likelihood + one.total_without(score, fold).log_likelihood, all.log_likelihood,
                 1e-6);
-    sightings += inside.sightings;
+    observations += inside.observations;
   }
-  EXPECT_EQ(sightings, all.sightings);
+  EXPECT_EQ(observations, all.observations);
   EXPECT_EQ(
       TuneProblem::open(request({"sim:square@seed=1", "sim:square@seed=2", "sim:square@seed=3"}))->folds(),
       3U);
@@ -71,7 +71,7 @@ TEST(TuneProblem, FoldsAreStretchesOfALogOrLogs) {
 
 TEST(TuneProblem, ALogThatIsLeftOutIsNotRun) {
   const auto two = TuneProblem::open(request({"sim:square@seed=1", "sim:square@seed=2"})).value();
-  ThreadTeam alone(1);
+  ThreadPool alone(1);
   const auto score = two.score(two.start(), 1, {}, alone).value();
   EXPECT_EQ(score[0].size(), kTuneBlocks);
   EXPECT_TRUE(score[1].empty());

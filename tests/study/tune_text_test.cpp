@@ -16,7 +16,7 @@ TEST(TuneText, IsAConfig) {
                 .after = 1e-3,
                 .interval = {{1e-3, 0.5}},
                 .open_low = true}},
-      .sightings = 7,
+      .observations = 7,
       .before = -1.0,
       .after = 2.0};
   const std::string yaml = to_yaml(result);

@@ -80,7 +80,7 @@ double mean_pose_nees(const Drive& drive) {
 }
 
 /// 99.9 % band of a mean of 60 chi-square variables with three degrees of freedom.
-inline constexpr double kLeastMeanNees = 2.05;
-inline constexpr double kMostMeanNees = 4.12;
+inline constexpr double kMinMeanNees = 2.05;
+inline constexpr double kMaxMeanNees = 4.12;
 
 }  // namespace waymark::test

@@ -26,8 +26,8 @@ class PointRoom {
   struct Options {
     int points = 400;
     double pixel_sigma = 0.3;
-    int most_in_view = 25;  ///< new points are shown while fewer are tracked
-    double moving = 0.0;    ///< part of the points that walk to and fro by the walls at 1 m/s
+    int max_in_view = 25;  ///< new points are shown while fewer are tracked
+    double moving = 0.0;   ///< part of the points that walk to and fro by the walls at 1 m/s
   };
 
   PointRoom(std::uint64_t seed, const Options& options)
@@ -73,14 +73,14 @@ class PointRoom {
   }
 
   /// Those points that are expected and in view.
-  [[nodiscard]] std::vector<Observation> look_for(std::span<const Expectation> expected,
-                                                  std::vector<LandmarkId>& missed) {
+  [[nodiscard]] std::vector<Observation> search_for(std::span<const Expectation> expected,
+                                                    std::vector<LandmarkId>& missed) {
     std::vector<Observation> seen;
     missed.clear();
     in_view_.clear();
     for (const Expectation& e : expected) {
       if (const auto pixel = see(e.id.number)) {
-        seen.push_back(sighting(e.id.number, *pixel, options_.pixel_sigma));
+        seen.push_back(observation(e.id.number, *pixel, options_.pixel_sigma));
         in_view_.insert(e.id.number);
       } else {
         missed.push_back(e.id);
@@ -90,13 +90,13 @@ class PointRoom {
   }
 
   /// Points that nobody expects, while there are few.
-  [[nodiscard]] std::vector<Observation> look_for_new(int most) {
+  [[nodiscard]] std::vector<Observation> search_for_new(int most) {
     std::vector<Observation> seen;
-    const int wanted = std::min(most, options_.most_in_view - static_cast<int>(in_view_.size()));
+    const int wanted = std::min(most, options_.max_in_view - static_cast<int>(in_view_.size()));
     for (int k = 0; k < 200 && static_cast<int>(seen.size()) < wanted; ++k) {
       const int i = static_cast<int>(random_.uniform() * options_.points);
       if (!in_view_.insert(i).second) continue;
-      if (const auto pixel = see(i)) seen.push_back(sighting(i, *pixel, 0.1));
+      if (const auto pixel = see(i)) seen.push_back(observation(i, *pixel, 0.1));
     }
     return seen;
   }
@@ -107,7 +107,7 @@ class PointRoom {
     if (!h || !camera_.sees(h->predicted, 10.0)) return std::nullopt;
     return h->predicted;
   }
-  Observation sighting(int i, const Eigen::Vector2d& pixel, double sigma_px) {
+  Observation observation(int i, const Eigen::Vector2d& pixel, double sigma_px) {
     return {LandmarkId{LandmarkId::Family::kCorner, i},
             Pixel{pixel.x() + sigma_px * random_.normal(), pixel.y() + sigma_px * random_.normal()},
             Eigen::Matrix2d(sigma_px * sigma_px * Eigen::Matrix2d::Identity())};

@@ -1,4 +1,4 @@
-// A camera carried over a desk (Davison's sequence for MonoSLAM): corners cut in one picture are found in the
+// A camera carried over a desk (Davison's sequence for MonoSLAM): corners cut in one image are found in the
 // next one, and the corners of a known target where its camera model says.
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ GreyImage frame(int number) {
 
 Eigen::Matrix2d isotropic(double sigma_px) { return sigma_px * sigma_px * Eigen::Matrix2d::Identity(); }
 
-/// Where what is at a place of one picture is in another one, looked for around `predicted`.
+/// Where what is at a place of one image is in another one, looked for around `predicted`.
 std::optional<Eigen::Vector2d> follow(const ImageView& from, const Eigen::Vector2d& place,
                                       const ImageView& to, const Eigen::Vector2d& predicted) {
   constexpr double kPrediction_px = 3.0;
@@ -55,7 +55,7 @@ struct Followed {
   Eigen::Vector2d motion = Eigen::Vector2d::Zero();  ///< median of those found
 };
 
-/// The corners of one picture in the next one, which is expected to move as the picture before did; and back.
+/// The corners of one image in the next one, which is expected to move as the image before did; and back.
 Followed follow_corners(const ImageView& first, const ImageView& second, const Eigen::Vector2d& motion) {
   constexpr double kMargin_px = 30.0;
   constexpr double kSamePlace_px = 1.5;
@@ -79,7 +79,7 @@ Followed follow_corners(const ImageView& first, const ImageView& second, const E
   return followed;
 }
 
-TEST(Desk, CornersAreFoundAgainInTheNextPicture) {
+TEST(Desk, CornersAreFoundAgainInTheNextImage) {
   WAYMARK_REQUIRE_DATA("monoslam-desk");
   Followed all;
   GreyImage before = frame(0);
@@ -92,7 +92,7 @@ TEST(Desk, CornersAreFoundAgainInTheNextPicture) {
     all.motion = step.motion;
     before = std::move(now);
   }
-  std::printf("desk: %d corners, %.1f %% found in the next picture, %.1f %% of these lead back\n",
+  std::printf("desk: %d corners, %.1f %% found in the next image, %.1f %% of these lead back\n",
               all.looked_for, 100.0 * all.found / all.looked_for, 100.0 * all.found_back / all.found);
   EXPECT_GT(all.looked_for, 29 * 15);
   EXPECT_GE(all.found, 0.9 * all.looked_for);
@@ -115,7 +115,7 @@ TEST(Desk, CornersOfTheTargetAreFoundWhereTheCameraModelExpectsThem) {
   constexpr double kThreeSigma = 0.9889;  // what MonoSLAM searches
   const std::array<Eigen::Vector2d, 4> target{
       Eigen::Vector2d(0.13477, 0.04074), {-0.04632, 0.04324}, {0.13555, -0.08827}, {-0.04969, -0.08697}};
-  const GreyImage picture = frame(0);
+  const GreyImage camera_image = frame(0);
   const double sigma_px = std::hypot(195.0 * kPosition_m / kDistance_m, 1.0);
   for (int k = 0; k < 4; ++k) {
     const GreyImage shown = read("init/known_patch" + std::to_string(k) + ".pgm");
@@ -124,7 +124,7 @@ TEST(Desk, CornersOfTheTargetAreFoundWhereTheCameraModelExpectsThem) {
     const Eigen::Vector2d& corner = target[static_cast<std::size_t>(k)];
     const Eigen::Vector2d predicted = project({corner.x(), corner.y(), kDistance_m});
     Search search({.probability = kThreeSigma});
-    const auto match = search.find(picture, *patch, predicted, isotropic(sigma_px));
+    const auto match = search.find(camera_image, *patch, predicted, isotropic(sigma_px));
     ASSERT_TRUE(match.has_value()) << k;
     EXPECT_LE((Eigen::Vector2d(match->u, match->v) - predicted).norm(), 2.0)
         << k << ": " << match->u << ", " << match->v << " for " << predicted.transpose();

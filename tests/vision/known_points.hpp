@@ -31,7 +31,7 @@ class KnownPoints {
     return image->pixel;
   }
 
-  /// Those in the picture, with predictions that are wrong as S says.
+  /// Those in the image, with predictions that are wrong as S says.
   [[nodiscard]] std::vector<Expectation> expect(const Pose2& T_world_robot, const Eigen::Matrix2d& S,
                                                 RandomStream& random, bool candidates = false) const {
     const Eigen::Matrix2d L = S.llt().matrixL();
@@ -51,9 +51,9 @@ class KnownPoints {
 
   /// Takes new corners where `point_at` knows what they are of, and says what a filter would.
   template <class PointAt>
-  std::vector<Innovation> take(const vision::Sightings& sightings, PointAt&& point_at) {
+  std::vector<Innovation> take(const vision::SearchOutcome& observations, PointAt&& point_at) {
     std::vector<Innovation> innovations;
-    for (const Observation& seen : sightings.found) {
+    for (const Observation& seen : observations.found) {
       if (points_.contains(*seen.id)) {
         innovations.push_back({*seen.id, Outcome::kMatched});
         continue;

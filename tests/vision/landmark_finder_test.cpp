@@ -12,7 +12,7 @@ namespace {
 
 const Eigen::Matrix2d kInnovation = 9.0 * Eigen::Matrix2d::Identity();
 
-/// A wall of squares before the camera, and the landmark at (u, v) of its picture.
+/// A wall of squares before the camera, and the landmark at (u, v) of its image.
 class Finder : public ::testing::Test {
  protected:
   Finder() : random_(1, StreamPurpose::kWorld), image_(test::squares(320, 240, random_)) {}
@@ -37,10 +37,11 @@ class Finder : public ::testing::Test {
 TEST_F(Finder, FindsAPatchWhereItWasCut) {
   LandmarkFinder finder({}, {}, camera_);
   Appearance known = appearance(150, 100);
-  const Finding finding = finder.look_for(expectation(150, 100, {2.0, -3.0}), image_, here_, known);
-  EXPECT_EQ(finding.result, Look::Result::kFound);
-  EXPECT_LT((finding.pixel - Eigen::Vector2d(150.0, 100.0)).norm(), 0.05);
-  EXPECT_NEAR(finding.R.norm(), (kLeastPixelSigma * kLeastPixelSigma * Eigen::Matrix2d::Identity()).norm(),
+  const SearchResult search_result =
+      finder.search_for(expectation(150, 100, {2.0, -3.0}), image_, here_, known);
+  EXPECT_EQ(search_result.result, SearchRecord::Result::kFound);
+  EXPECT_LT((search_result.pixel - Eigen::Vector2d(150.0, 100.0)).norm(), 0.05);
+  EXPECT_NEAR(search_result.R.norm(), (kMinPixelSigma * kMinPixelSigma * Eigen::Matrix2d::Identity()).norm(),
               1e-6);
 }
 
@@ -49,12 +50,12 @@ TEST_F(Finder, MissesWhatIsElsewhereOnlyWhereTheWholePatchShouldBeSeen) {
   RandomStream other_random(2, StreamPurpose::kWorld);
   const GreyImage other = test::squares(320, 240, other_random);
   Appearance known = appearance(150, 100), aside = appearance(25, 100);
-  EXPECT_EQ(finder.look_for(expectation(150, 100, {0.0, 0.0}), other, here_, known).result,
-            Look::Result::kMissed);
-  EXPECT_EQ(finder.look_for(expectation(25, 100, {-20.0, 0.0}), other, here_, aside).result,
-            Look::Result::kNotTried);
-  EXPECT_EQ(finder.look_for(expectation(25, 100, {-100.0, 0.0}), other, here_, aside).result,
-            Look::Result::kNotTried);
+  EXPECT_EQ(finder.search_for(expectation(150, 100, {0.0, 0.0}), other, here_, known).result,
+            SearchRecord::Result::kMissed);
+  EXPECT_EQ(finder.search_for(expectation(25, 100, {-20.0, 0.0}), other, here_, aside).result,
+            SearchRecord::Result::kNotTried);
+  EXPECT_EQ(finder.search_for(expectation(25, 100, {-100.0, 0.0}), other, here_, aside).result,
+            SearchRecord::Result::kNotTried);
 }
 
 TEST_F(Finder, CostsWhatItExpectedToCost) {
@@ -62,8 +63,8 @@ TEST_F(Finder, CostsWhatItExpectedToCost) {
   LandmarkFinder finder({}, {}, camera_);
   Appearance known = appearance(150, 100);
   const Expectation expected = expectation(150, 100, {1.0, 1.0});
-  const Finding finding = finder.look_for(expected, image_, here_, known);
-  EXPECT_NEAR(finding.cost_ns, finder.expected_cost_ns(expected), 10.0 * costs.window_ns);
+  const SearchResult search_result = finder.search_for(expected, image_, here_, known);
+  EXPECT_NEAR(search_result.cost_ns, finder.expected_cost_ns(expected), 10.0 * costs.window_ns);
 }
 
 TEST_F(Finder, DrawsThePatchAnewForAnotherViewpointUnlessToldOtherwise) {
@@ -71,7 +72,7 @@ TEST_F(Finder, DrawsThePatchAnewForAnotherViewpointUnlessToldOtherwise) {
   for (const bool warp : {true, false}) {
     LandmarkFinder finder({.warp = warp}, {}, camera_);
     Appearance known = appearance(160, 120);
-    static_cast<void>(finder.look_for(expectation(160, 120, {0.0, 0.0}), image_, nearer, known));
+    static_cast<void>(finder.search_for(expectation(160, 120, {0.0, 0.0}), image_, nearer, known));
     EXPECT_NEAR(known.patch.A()(0, 0), warp ? 1.5 : 1.0, 0.01);
   }
 }
@@ -84,9 +85,9 @@ TEST_F(Finder, ClaimsLessWhereSomethingElseIsInThePatchToo) {
     for (int u = 142; u < 148; ++u)
       half_hidden(u, v) = static_cast<std::uint8_t>(random_.uniform(0.0, 255.0));
   const Expectation expected = expectation(150, 100, {0.0, 0.0});
-  const Finding clear = finder.look_for(expected, image_, here_, known);
-  const Finding hidden = finder.look_for(expected, half_hidden, here_, changed);
-  ASSERT_EQ(hidden.result, Look::Result::kFound);
+  const SearchResult clear = finder.search_for(expected, image_, here_, known);
+  const SearchResult hidden = finder.search_for(expected, half_hidden, here_, changed);
+  ASSERT_EQ(hidden.result, SearchRecord::Result::kFound);
   EXPECT_GT(hidden.R.trace(), 2.0 * clear.R.trace());
 }
 

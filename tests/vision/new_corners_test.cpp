@@ -15,7 +15,7 @@ namespace {
 
 constexpr CornerOptions kCorners{.threshold = 20, .arc = 9};
 
-GreyImage picture(std::uint64_t seed) {
+GreyImage frame(std::uint64_t seed) {
   RandomStream random(seed, StreamPurpose::kWorld);
   return test::squares(320, 240, random, 2.0);
 }
@@ -31,7 +31,7 @@ int cell_of(const Eigen::Vector2d& place) {
 }
 
 TEST(ShiTomasi, IsTheSmallerEigenvalueOfTheGradients) {
-  const GreyImage image = picture(1);
+  const GreyImage image = frame(1);
   RandomStream random(2, StreamPurpose::kWorld);
   for (int i = 0; i < 50; ++i) {
     const int u = static_cast<int>(random.uniform(20.0, 300.0)),
@@ -51,10 +51,10 @@ TEST(ShiTomasi, IsTheSmallerEigenvalueOfTheGradients) {
 
 TEST(NewCorners, KeepTheirDistanceFromFeaturesFromEachOtherAndFromTheBorder) {
   RandomStream random(3, StreamPurpose::kWorld);
-  NewCorners corners({.wanted = 100, .most_candidates = 20, .most_new = 20}, kCorners, 16, 320, 240);
+  NewCorners corners({.wanted = 100, .max_candidates = 20, .max_new = 20}, kCorners, 16, 320, 240);
   std::size_t found = 0;
   for (std::uint64_t seed = 10; seed < 30; ++seed) {
-    const GreyImage image = picture(seed);
+    const GreyImage image = frame(seed);
     std::vector<Eigen::Vector2d> features;
     for (int i = 0; i < 20; ++i)
       features.emplace_back(random.uniform(-10.0, 330.0), random.uniform(-10.0, 250.0));
@@ -71,8 +71,8 @@ TEST(NewCorners, KeepTheirDistanceFromFeaturesFromEachOtherAndFromTheBorder) {
 }
 
 TEST(NewCorners, AreLookedForOnlyInCellsThatHoldTooFewFeatures) {
-  const GreyImage image = picture(4);
-  NewCorners corners({.wanted = 12, .most_candidates = 20, .most_new = 20}, kCorners, 16, 320, 240);
+  const GreyImage image = frame(4);
+  NewCorners corners({.wanted = 12, .max_candidates = 20, .max_new = 20}, kCorners, 16, 320, 240);
   const std::vector<Eigen::Vector2d> features{{10.0, 10.0}, {150.0, 70.0}, {319.0, 239.0}};
   std::set<int> occupied;
   for (const Eigen::Vector2d& f : features) occupied.insert(cell_of(f));
@@ -83,7 +83,7 @@ TEST(NewCorners, AreLookedForOnlyInCellsThatHoldTooFewFeatures) {
 }
 
 TEST(NewCorners, ObeyTheirLimits) {
-  const GreyImage image = picture(5);
+  const GreyImage image = frame(5);
   const auto number = [&](const NewCornerOptions& options, std::size_t features, int candidates) {
     NewCorners corners(options, kCorners, 16, 320, 240);
     FrameBudget budget = plenty();
@@ -91,7 +91,7 @@ TEST(NewCorners, ObeyTheirLimits) {
         .size();
   };
   EXPECT_EQ(number({}, 0, 0), 4U);
-  EXPECT_EQ(number({.most_new = 2}, 0, 0), 2U);
+  EXPECT_EQ(number({.max_new = 2}, 0, 0), 2U);
   EXPECT_EQ(number({}, 0, 7), 1U);
   EXPECT_EQ(number({}, 0, 8), 0U);
   EXPECT_EQ(number({}, 23, 0), 1U);
@@ -99,9 +99,9 @@ TEST(NewCorners, ObeyTheirLimits) {
   EXPECT_EQ(number({}, 50, 20), 0U);
 }
 
-TEST(NewCorners, GoRoundThePictureAndStopWhenTimeIsUp) {
-  const GreyImage image = picture(6);
-  NewCorners corners({.most_new = 1}, kCorners, 16, 320, 240);
+TEST(NewCorners, GoRoundTheImageAndStopWhenTimeIsUp) {
+  const GreyImage image = frame(6);
+  NewCorners corners({.max_new = 1}, kCorners, 16, 320, 240);
   std::set<int> cells;
   for (int i = 0; i < 12; ++i) {
     FrameBudget budget = plenty();
@@ -115,7 +115,7 @@ TEST(NewCorners, GoRoundThePictureAndStopWhenTimeIsUp) {
 }
 
 TEST(NewCorners, AllocateNothing) {
-  const GreyImage image = picture(7);
+  const GreyImage image = frame(7);
   NewCorners corners({}, kCorners, 16, 320, 240);
   const test::AllocationCount count;
   for (int i = 0; i < 10; ++i) {

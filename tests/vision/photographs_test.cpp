@@ -114,7 +114,7 @@ TEST(Photographs, SmallMotionIsMatched) {
   EXPECT_GT(outcome.accepted, outcome.searched * 9 / 10);
 }
 
-/// The same picture at another exposure, with the noise of a small camera.
+/// The same image at another exposure, with the noise of a small camera.
 GreyImage exposed(const GreyImage& image, double gain, double offset) {
   RandomStream random(2, StreamPurpose::kWorld);
   GreyImage changed(image.width_px(), image.height_px());

@@ -12,7 +12,7 @@
 
 namespace waymark::test {
 
-/// A picture known at every place between its pixels: waves of all directions, none shorter than six pixels.
+/// An image known at every place between its pixels: waves of all directions, none shorter than six pixels.
 class SmoothTexture {
  public:
   explicit SmoothTexture(RandomStream& random, double contrast = 12.0) {

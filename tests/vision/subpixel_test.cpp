@@ -17,7 +17,7 @@ struct Statistics {
   double rms_error = 0.0;  ///< per axis, px
 };
 
-/// Patches of one picture found in another one that is shifted by a part of a pixel, both with noise.
+/// Patches of one image found in another one that is shifted by a part of a pixel, both with noise.
 Statistics measure(int size, double grey_sigma, double contrast, std::uint64_t seed) {
   RandomStream random(seed, StreamPurpose::kWorld);
   Statistics s;
@@ -55,7 +55,7 @@ TEST(Subpixel, ErrorIsATenthOfAPixelWhereTextureIsStrong) {
     const Statistics s = measure(size, grey_sigma, 12.0, 2);
     EXPECT_GT(s.found, 390);
     EXPECT_LT(s.rms_error, 0.1);
-    EXPECT_LT(s.mean_nees, 2.0) << "no better is claimed than " << kLeastPixelSigma;
+    EXPECT_LT(s.mean_nees, 2.0) << "no better is claimed than " << kMinPixelSigma;
   }
 }
 

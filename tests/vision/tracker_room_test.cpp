@@ -1,4 +1,4 @@
-// The tracker in pictures of a rendered room, whose every pixel is known to be of a point in space.
+// The tracker in images of a rendered room, whose every pixel is known to be of a point in space.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -12,7 +12,7 @@
 #include "waymark/vision/tracker.hpp"
 
 #include "known_points.hpp"
-#include "workbench/sim/film.hpp"
+#include "workbench/sim/camera_simulator.hpp"
 #include "workbench/sim/rooms.hpp"
 
 namespace waymark::vision {
@@ -40,27 +40,28 @@ std::optional<Vector3d> first_on_ray(const std::vector<sim::Rectangle>& rectangl
 
 /// A drive through a room without people, and what its camera takes.
 struct Room {
-  explicit Room(std::uint64_t seed, sim::FilmOptions film_options = calm())
+  explicit Room(std::uint64_t seed, sim::CameraSimulatorOptions camera_simulator_options = calm())
       : options(*sim::scenario("room")),
         path(sim::make_path(options.path, seed)),
         driven(sim::drive(path, options, seed)),
         scene(sim::build_scene(without_people(options.room), path, seed)),
         rectangles(scene.rectangles),
-        camera(sim::camera_of(film_options)),
-        film(film_options, std::move(scene), driven, seed, 1) {}
+        camera(sim::camera_of(camera_simulator_options)),
+        camera_simulator(camera_simulator_options, std::move(scene), driven, seed, 1) {}
 
-  static sim::FilmOptions calm() {
-    sim::FilmOptions film;
-    film.vibration_pitch_deg = film.vibration_roll_deg = film.vibration_height_m = 0.0;
-    film.drift_ratio = film.jump_ratio = 0.0;
-    return film;
+  static sim::CameraSimulatorOptions calm() {
+    sim::CameraSimulatorOptions camera_simulator;
+    camera_simulator.vibration_pitch_deg = camera_simulator.vibration_roll_deg =
+        camera_simulator.vibration_height_m = 0.0;
+    camera_simulator.drift_ratio = camera_simulator.jump_ratio = 0.0;
+    return camera_simulator;
   }
   static sim::RoomOptions without_people(sim::RoomOptions room) {
     room.walkers = 0;
     return room;
   }
 
-  [[nodiscard]] Pose2 pose(std::size_t image) const { return driven.at(film.stamp(image)); }
+  [[nodiscard]] Pose2 pose(std::size_t image) const { return driven.at(camera_simulator.stamp(image)); }
   [[nodiscard]] std::optional<Vector3d> point_at(const Vector2d& pixel, std::size_t image) const {
     const CameraPose from = camera.pose(pose(image));
     const auto ray = camera.ray(pixel);
@@ -75,7 +76,7 @@ struct Room {
   sim::Scene scene;
   std::vector<sim::Rectangle> rectangles;
   Camera camera;
-  sim::Film film;
+  sim::CameraSimulator camera_simulator;
 };
 
 /// By how much a match was off, and the way from the point to the camera that saw it.
@@ -106,16 +107,17 @@ Errors follow(Room& room, std::size_t images, std::size_t step, const Eigen::Mat
   RandomStream random(5, StreamPurpose::kWorld);
   Errors errors;
   for (std::size_t i = 0; i < images; i += step) {
-    const GreyImage image = room.film.take(i);
+    const GreyImage image = room.camera_simulator.take(i);
     std::vector<Innovation> innovations;
-    const auto correct = [&](Round round, const Sightings& sightings) {
+    const auto correct = [&](Round round, const SearchOutcome& observations) {
       if (round == Round::kCandidates) {
-        innovations = points.take(sightings, [&](const Vector2d& pixel) { return room.point_at(pixel, i); });
+        innovations =
+            points.take(observations, [&](const Vector2d& pixel) { return room.point_at(pixel, i); });
         return Correction{innovations, {}};
       }
-      errors.found += static_cast<int>(sightings.found.size());
-      errors.missed += static_cast<int>(sightings.missed.size());
-      for (const Observation& seen : sightings.found) {
+      errors.found += static_cast<int>(observations.found.size());
+      errors.missed += static_cast<int>(observations.missed.size());
+      for (const Observation& seen : observations.found) {
         const Vector2d error = test::place_of(seen) - *points.pixel(*seen.id, room.pose(i));
         errors.add(error, *seen.covariance);
         errors.matches[*seen.id].push_back(
@@ -128,10 +130,10 @@ Errors follow(Room& room, std::size_t images, std::size_t step, const Eigen::Mat
   return errors;
 }
 
-/// Follows a drive for three seconds, ten pictures per second.
-void expect_right_places(const sim::FilmOptions& film) {
+/// Follows a drive for three seconds, ten images per second.
+void expect_right_places(const sim::CameraSimulatorOptions& camera_simulator) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    Room room(seed, film);
+    Room room(seed, camera_simulator);
     const Errors errors = follow(room, 90, 3, 9.0 * Eigen::Matrix2d::Identity());
     std::printf("seed %d: %d found, %d missed; error median %.3f px, 80 %% below %.2f, 95 %% below %.2f\n",
                 static_cast<int>(seed), errors.found, errors.missed,
@@ -148,11 +150,11 @@ void expect_right_places(const sim::FilmOptions& film) {
 TEST(TrackerInARoom, FindsPlacesToAFifthOfAPixelUnderKnownMotion) { expect_right_places(Room::calm()); }
 
 TEST(TrackerInARoom, DoesSoWhereLightChanges) {
-  sim::FilmOptions film = Room::calm();
-  film.drift_ratio = 0.1;
-  film.jump_ratio = 0.25;
-  film.jump_interval_s = 1.0;
-  expect_right_places(film);
+  sim::CameraSimulatorOptions camera_simulator = Room::calm();
+  camera_simulator.drift_ratio = 0.1;
+  camera_simulator.jump_ratio = 0.25;
+  camera_simulator.jump_interval_s = 1.0;
+  expect_right_places(camera_simulator);
 }
 
 TEST(TrackerInARoom, RecognisesFourOfFiveWhereItIsLessStrict) {
@@ -187,8 +189,8 @@ double variance_of_differences(const std::vector<Errors>& runs, double from_deg,
   return sum / count;
 }
 
-/// What ekf/pixel_slam.hpp takes for granted: PixelSlamOptions::wander_px.
-TEST(TrackerInARoom, PlacesWanderAsTheViewTurns) {
+/// What ekf/pixel_slam.hpp takes for granted: PixelSlamOptions::landmark_noise_px.
+TEST(TrackerInARoom, PlacesDriftAsTheViewTurns) {
   std::vector<Errors> runs;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Room room(seed, Room::calm());

@@ -19,14 +19,14 @@ namespace {
 constexpr double kWall_m = 2.77;  // a pixel there is a centimetre wide
 const Eigen::Matrix2d kS = 9.0 * Eigen::Matrix2d::Identity();
 
-/// The camera in front of a wall: a step to the left of a centimetre shifts the picture by a pixel.
+/// The camera in front of a wall: a step to the left of a centimetre shifts the image by a pixel.
 struct Wall {
   explicit Wall(std::uint64_t seed)
       : random(seed, StreamPurpose::kWorld), wall(test::squares(500, 240, random)) {}
 
   static Pose2 pose(int step) { return {0.0, 0.01 * step, 0.0}; }
-  /// With noise that is another one in every picture.
-  GreyImage picture(int step) {
+  /// With noise that is another one in every image.
+  GreyImage frame(int step) {
     GreyImage image(320, 240);
     for (int v = 0; v < 240; ++v)
       for (int u = 0; u < 320; ++u)
@@ -44,7 +44,7 @@ struct Wall {
   Camera camera;
 };
 
-/// What was seen in both rounds of a picture of which the filter takes nothing.
+/// What was seen in both rounds of an image of which the filter takes nothing.
 struct Rounds {
   std::vector<Observation> found, found_later;
   std::vector<LandmarkId> missed, missed_later;
@@ -52,7 +52,7 @@ struct Rounds {
 
 Rounds track(Tracker& tracker, const GreyImage& image, std::span<const Expectation> expectations) {
   Rounds rounds;
-  tracker.track(image, Wall::pose(0), expectations, [&](Round round, const Sightings& seen) {
+  tracker.track(image, Wall::pose(0), expectations, [&](Round round, const SearchOutcome& seen) {
     const bool first = round == Round::kLandmarks;
     (first ? rounds.found : rounds.found_later).assign(seen.found.begin(), seen.found.end());
     (first ? rounds.missed : rounds.missed_later).assign(seen.missed.begin(), seen.missed.end());
@@ -68,14 +68,14 @@ struct Started {
     for (int k = 0; k < 12; ++k) see(0);
   }
 
-  /// One picture from expectations to what is learnt. Returns what was found and missed, of both kinds.
+  /// One image from expectations to what is learnt. Returns what was found and missed, of both kinds.
   std::vector<Observation> see(int step, bool candidates = false) {
-    image = wall.picture(step);
+    image = wall.image(step);
     expectations = points.expect(Wall::pose(step), kS, wall.random, candidates);
     std::vector<Observation> found;
     std::vector<Innovation> innovations;
     missed.clear();
-    tracker.track(image, Wall::pose(step), expectations, [&](Round round, const Sightings& seen) {
+    tracker.track(image, Wall::pose(step), expectations, [&](Round round, const SearchOutcome& seen) {
       found.insert(found.end(), seen.found.begin(), seen.found.end());
       missed.insert(missed.end(), seen.missed.begin(), seen.missed.end());
       if (round == Round::kCandidates)
@@ -93,13 +93,13 @@ struct Started {
   std::vector<LandmarkId> missed;
 };
 
-int number_of(std::span<const Look> looks, Look::Result result) {
-  return static_cast<int>(std::ranges::count(looks, result, &Look::result));
+int number_of(std::span<const SearchRecord> search_records, SearchRecord::Result result) {
+  return static_cast<int>(std::ranges::count(search_records, result, &SearchRecord::result));
 }
 
 TEST(Tracker, FindsLandmarksAgainWhereTheyAre) {
   for (const bool candidates : {false, true}) {
-    Started s(1, {.new_corners = {.most_candidates = 100}});
+    Started s(1, {.new_corners = {.max_candidates = 100}});
     const std::size_t known = s.points.size();
     ASSERT_GE(known, 12U);
     int found = 0, expected = 0;
@@ -121,7 +121,8 @@ TEST(Tracker, FindsLandmarksAgainWhereTheyAre) {
 TEST(Tracker, NamesEveryNewCornerAnew) {
   Started s(2);
   std::set<LandmarkId> ids;
-  for (const Look& look : s.tracker.looks()) EXPECT_TRUE(ids.insert(look.id).second);
+  for (const SearchRecord& search_record : s.tracker.search_records())
+    EXPECT_TRUE(ids.insert(search_record.id).second);
   // Also where the map knows corners that the tracker does not.
   const std::vector<Expectation> foreign{{.id = {LandmarkId::Family::kCorner, 5000}}};
   Tracker fresh({}, {}, s.wall.camera, 1);
@@ -135,11 +136,11 @@ TEST(Tracker, NamesEveryNewCornerAnew) {
 TEST(Tracker, ForgetsWhatTheFilterDidNotTakeOrDropped) {
   Wall wall(3);
   Tracker tracker({}, {}, wall.camera, 1);
-  const GreyImage image = wall.picture(0);
+  const GreyImage image = wall.image(0);
   test::KnownPoints points(wall.camera);
   std::vector<Innovation> innovations;
   std::vector<LandmarkId> removed;
-  tracker.track(image, Wall::pose(0), {}, [&](Round, const Sightings& seen) {
+  tracker.track(image, Wall::pose(0), {}, [&](Round, const SearchOutcome& seen) {
     for (const Observation& corner : seen.found) {
       points.add(*corner.id, *wall.point_at(test::place_of(corner), 0));
       innovations.push_back({*corner.id, innovations.empty() ? Outcome::kMapFull : Outcome::kAdded});
@@ -158,7 +159,7 @@ TEST(Tracker, DoesNotReportWhatWasDroppedMeanwhile) {
   const auto candidates = s.points.expect(Wall::pose(0), kS, s.wall.random, true);
   const std::vector<LandmarkId> removed{candidates.front().id};
   std::vector<LandmarkId> found;
-  s.tracker.track(s.image, Wall::pose(0), candidates, [&](Round, const Sightings& seen) {
+  s.tracker.track(s.image, Wall::pose(0), candidates, [&](Round, const SearchOutcome& seen) {
     for (const Observation& each : seen.found) found.push_back(*each.id);
     return Correction{{}, removed};
   });
@@ -169,12 +170,12 @@ TEST(Tracker, DoesNotReportWhatWasDroppedMeanwhile) {
 TEST(Tracker, MissesWhatIsNoLongerThere) {
   Started s(5);
   Wall other(99);
-  const GreyImage image = other.picture(0);
+  const GreyImage image = other.image(0);
   const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
   EXPECT_GT(track(s.tracker, image, expectations).missed.size(), expectations.size() * 8 / 10);
 }
 
-TEST(Tracker, TakesAPictureThatShowsNothingForNoEvidence) {
+TEST(Tracker, TakesAnImageThatShowsNothingForNoEvidence) {
   Started s(6);
   const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
   GreyImage dark(320, 240, 3);
@@ -184,7 +185,8 @@ TEST(Tracker, TakesAPictureThatShowsNothingForNoEvidence) {
     const Rounds rounds = track(s.tracker, image, expectations);
     EXPECT_TRUE(rounds.found.empty() && rounds.found_later.empty());
     EXPECT_TRUE(rounds.missed.empty() && rounds.missed_later.empty());
-    EXPECT_EQ(number_of(s.tracker.looks(), Look::Result::kNotTried), static_cast<int>(expectations.size()));
+    EXPECT_EQ(number_of(s.tracker.search_records(), SearchRecord::Result::kNotTried),
+              static_cast<int>(expectations.size()));
   }
   EXPECT_EQ(s.tracker.counts().unusable, static_cast<std::int64_t>(useless.size()));
   EXPECT_GT(s.see(0).size(), 5U);  // landmarks return when seen
@@ -214,22 +216,24 @@ TEST(Tracker, LooksForTheMostUsefulFirstAndStopsWithItsBudget) {
   for (const int left_us : {0, 10, 50, 100, 200, 5000}) {
     s.tracker.leave_time(all - std::chrono::microseconds(left_us));
     track(s.tracker, s.image, std::vector(expectations.rbegin(), expectations.rend()));
-    std::vector<Look> looks(s.tracker.looks().begin(), s.tracker.looks().begin() + std::ssize(expectations));
-    std::ranges::reverse(looks);
-    const int tried = static_cast<int>(looks.size()) - number_of(looks, Look::Result::kNotTried);
+    std::vector<SearchRecord> search_records(s.tracker.search_records().begin(),
+                                             s.tracker.search_records().begin() + std::ssize(expectations));
+    std::ranges::reverse(search_records);
+    const int tried =
+        static_cast<int>(search_records.size()) - number_of(search_records, SearchRecord::Result::kNotTried);
     for (int k = 0; k < tried; ++k)
-      EXPECT_NE(looks[static_cast<std::size_t>(k)].result, Look::Result::kNotTried);
+      EXPECT_NE(search_records[static_cast<std::size_t>(k)].result, SearchRecord::Result::kNotTried);
     // 520 windows each
-    EXPECT_NEAR(tried, std::min(left_us / 28, static_cast<int>(looks.size())), 2) << left_us;
-    const bool is_left_out = tried < std::ssize(looks);
+    EXPECT_NEAR(tried, std::min(left_us / 28, static_cast<int>(search_records.size())), 2) << left_us;
+    const bool is_left_out = tried < std::ssize(search_records);
     EXPECT_EQ(s.tracker.counts().out_of_budget - before, is_left_out ? 1 : 0);
     before = s.tracker.counts().out_of_budget;
   }
 }
 
-TEST(Tracker, SavesUpForASearchThatIsTooDearForOnePicture) {
+TEST(Tracker, SavesUpForASearchThatIsTooDearForOneImage) {
   TrackerOptions options;
-  options.budget.per_frame_ms = 0.04;  // a quarter of it is 10 us of work, a cell of a picture takes some 30
+  options.budget.per_frame_ms = 0.04;  // a quarter of it is 10 us of work, a cell of an image takes some 30
   Started s(11, options);
   EXPECT_GT(s.points.expect(Wall::pose(0), kS, s.wall.random).size(), 0U);
   EXPECT_LE(s.points.expect(Wall::pose(0), kS, s.wall.random).size(), 4U);
@@ -237,18 +241,18 @@ TEST(Tracker, SavesUpForASearchThatIsTooDearForOnePicture) {
 }
 
 TEST(Tracker, LooksForNoMoreThanItMay) {
-  Started s(9, {.most_observed = 5});
+  Started s(9, {.max_observed = 5});
   const auto found = s.see(0);
-  EXPECT_EQ(std::ranges::count_if(s.tracker.looks(),
-                                  [](const Look& look) {
-                                    return look.result == Look::Result::kFound ||
-                                           look.result == Look::Result::kMissed;
+  EXPECT_EQ(std::ranges::count_if(s.tracker.search_records(),
+                                  [](const SearchRecord& search_record) {
+                                    return search_record.result == SearchRecord::Result::kFound ||
+                                           search_record.result == SearchRecord::Result::kMissed;
                                   }),
             5);
   EXPECT_LE(found.size(), 5U + 4U);
 }
 
-/// All that a run through some pictures says.
+/// All that a run through some images says.
 std::vector<double> transcript(const TrackerOptions& options, int threads) {
   Started s(10, options, threads);
   std::vector<double> all;
@@ -294,7 +298,7 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
     std::vector<GreyImage> images;
     std::vector<std::vector<Expectation>> expectations;
     for (int step = 0; step < 10; ++step) {
-      images.push_back(s.wall.picture(step));
+      images.push_back(s.wall.image(step));
       expectations.push_back(s.points.expect(Wall::pose(step), kS, s.wall.random));
       for (std::size_t k = 0; k < 4; ++k) expectations.back()[k].candidate = true;
       expectations.back()[0].S *= 100.0;  // searched at corners
@@ -305,7 +309,7 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
     const test::AllocationCount count;
     for (std::size_t k = 0; k < images.size(); ++k) {
       s.tracker.track(images[k], Wall::pose(static_cast<int>(k)), expectations[k],
-                      [&](Round, const Sightings& seen) {
+                      [&](Round, const SearchOutcome& seen) {
                         EXPECT_FALSE(seen.found.empty());
                         taken.clear();
                         for (const Observation& each : seen.found)

@@ -7,7 +7,7 @@ namespace waymark {
 namespace {
 
 // A sensor without limits would leave clutter without density.
-constexpr double kLeastViewVolume = 1e-3;
+constexpr double kMinViewVolume = 1e-3;
 
 // Of a sensor that does not say.
 constexpr double kUsuallyDetected = 0.9;
@@ -21,14 +21,14 @@ AssociationModel::AssociationModel(const AssociationOptions& options, const Land
       missed_(std::log((1.0 - detected_) / (1.0 - options.false_alarm_probability))) {
   const double volume =
       (sensor.max_range_m - sensor.min_range_m) * to_radians(std::min(sensor.field_of_view_deg, 360.0));
-  clutter_density_ = options.clutter_per_scan / std::max(volume, kLeastViewVolume);
+  clutter_density_ = options.clutter_per_scan / std::max(volume, kMinViewVolume);
 }
 
 double AssociationModel::log_density_of_others(double range_m) const {
   return std::log(clutter_density_ + options_.landmarks_per_m2 * range_m);
 }
 
-double AssociationModel::log_odds_of_sighting(double existence_probability) const {
+double AssociationModel::log_odds_of_observation(double existence_probability) const {
   const double q = existence_probability * detected_;
   return std::log(q / (1.0 - q));
 }

@@ -6,18 +6,18 @@
 
 namespace waymark {
 
-/// What is assumed of sightings that do not say which landmark they are of.
+/// What is assumed of observations that do not say which landmark they are of.
 struct AssociationOptions {
   double false_alarm_probability = 0.02;  ///< Pfa: that something else is taken for it
-  double clutter_per_scan = 1.0;          ///< sightings of nothing
+  double clutter_per_scan = 1.0;          ///< observations of nothing
   double landmarks_per_m2 = 0.1;          ///< still unknown ones in a place not seen before
   double confirmed_log_odds = 6.0;        ///< from which a landmark counts in the map
-  double most_log_odds = 12.0;            ///< where certainty ends
-  int most_pairings = 2000;               ///< tried per scan where pairs are decided jointly
+  double max_log_odds = 12.0;             ///< where certainty ends
+  int max_pairings = 2000;                ///< tried per scan where pairs are decided jointly
 };
 
-/// A landmark that was never confirmed is given up after this way without a sighting.
-inline constexpr double kTentativeWay_m = 5.0;
+/// A landmark that was never confirmed is given up after this way without an observation.
+inline constexpr double kTentativeDistance_m = 5.0;
 
 /// The numbers that association works with. Log-odds of existence grow by log(Pd / Pfa) when a landmark is
 /// seen and by log((1 - Pd) / (1 - Pfa)) when it should have been; they begin at 0, and below 0 the landmark
@@ -28,23 +28,23 @@ class AssociationModel {
 
   [[nodiscard]] double seen() const { return seen_; }
   [[nodiscard]] double missed() const { return missed_; }
-  /// The log-odds after a sighting: at least those of a landmark that has just been met.
-  [[nodiscard]] double after_sighting(double log_odds) const {
-    return log_odds < 0.0 ? 0.0 : std::min(options_.most_log_odds, log_odds + seen_);
+  /// The log-odds after an observation: at least those of a landmark that has just been met.
+  [[nodiscard]] double after_observation(double log_odds) const {
+    return log_odds < 0.0 ? 0.0 : std::min(options_.max_log_odds, log_odds + seen_);
   }
   [[nodiscard]] double confirmed() const { return options_.confirmed_log_odds; }
-  [[nodiscard]] double most() const { return options_.most_log_odds; }
+  [[nodiscard]] double most() const { return options_.max_log_odds; }
 
   /// Density of landmarks that are not known yet, per m^2.
   [[nodiscard]] double landmarks_per_m2() const { return options_.landmarks_per_m2; }
-  [[nodiscard]] int most_pairings() const { return options_.most_pairings; }
+  [[nodiscard]] int max_pairings() const { return options_.max_pairings; }
 
-  /// log of the density, per metre of range and radian of bearing, of sightings of nothing known: clutter is
-  /// even over range and bearing, unknown landmarks over the ground.
+  /// log of the density, per metre of range and radian of bearing, of observations of nothing known: clutter
+  /// is even over range and bearing, unknown landmarks over the ground.
   [[nodiscard]] double log_density_of_others(double range_m) const;
 
   /// log(q / (1 - q)), q the chance that a landmark is both there and seen.
-  [[nodiscard]] double log_odds_of_sighting(double existence_probability) const;
+  [[nodiscard]] double log_odds_of_observation(double existence_probability) const;
 
  private:
   AssociationOptions options_;

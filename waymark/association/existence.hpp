@@ -7,8 +7,8 @@
 namespace waymark {
 
 /// How sure it is that a landmark is there: log-odds, see AssociationModel. A landmark that was met without
-/// identity is tentative until it has been observed again often enough, and a ghost when it was missed too
-/// often.
+/// identity is tentative until it has been observed again often enough, and a false track when it was missed
+/// too often.
 class Existence {
  public:
   /// Tentative: as likely as not.
@@ -23,7 +23,7 @@ class Existence {
 
   void see(const AssociationModel& model) {
     if (is_certain()) return;
-    log_odds_ = model.after_sighting(log_odds_);
+    log_odds_ = model.after_observation(log_odds_);
     confirmed_ = confirmed_ || log_odds_ >= model.confirmed();
   }
   void miss(const AssociationModel& model) { log_odds_ += model.missed(); }
@@ -33,7 +33,7 @@ class Existence {
   [[nodiscard]] double log_odds() const { return log_odds_; }
   [[nodiscard]] bool is_certain() const { return log_odds_ == std::numeric_limits<double>::infinity(); }
   [[nodiscard]] bool is_confirmed() const { return confirmed_; }
-  [[nodiscard]] bool is_ghost() const { return log_odds_ < 0.0; }
+  [[nodiscard]] bool is_false_track() const { return log_odds_ < 0.0; }
   [[nodiscard]] double probability() const;
 
  private:

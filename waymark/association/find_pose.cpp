@@ -29,8 +29,8 @@ double variance_along(const Eigen::Vector2d& apart, const Eigen::Matrix2d& covar
 }
 
 /// Can two that were seen be these two of the map?
-bool is_as_far_apart(const SeenLandmark& first, const SeenLandmark& second, const MapState& map, int a,
-                     int b) {
+bool is_as_far_apart(const ObservedLandmark& first, const ObservedLandmark& second, const MapState& map,
+                     int a, int b) {
   const Eigen::Vector2d seen = second.p_robot - first.p_robot;
   const Eigen::Vector2d known = landmark(map, b) - landmark(map, a);
   const Eigen::Matrix2d P = common(map, a, a) + common(map, b, b) - common(map, a, b) - common(map, b, a);
@@ -55,8 +55,8 @@ struct Match {
 
 class Search {
  public:
-  Search(std::span<const SeenLandmark> seen, const MapState& map) : seen_(seen), map_(map) {
-    for (const SeenLandmark& each : seen) candidates_.push_back(candidates(each.id));
+  Search(std::span<const ObservedLandmark> seen, const MapState& map) : seen_(seen), map_(map) {
+    for (const ObservedLandmark& each : seen) candidates_.push_back(candidates(each.id));
   }
 
   PoseCandidates run() {
@@ -197,7 +197,7 @@ class Search {
     return {t.x(), t.y(), theta_rad};
   }
 
-  std::span<const SeenLandmark> seen_;
+  std::span<const ObservedLandmark> seen_;
   const MapState& map_;
   std::vector<std::vector<int>> candidates_;  // landmarks that it may be, by what was seen
   std::vector<std::pair<Pose2, int>> tried_;  // poses, and how many agree
@@ -207,13 +207,13 @@ class Search {
 
 }  // namespace
 
-PoseCandidates find_pose(std::span<const SeenLandmark> seen, const MapState& map) {
+PoseCandidates find_pose(std::span<const ObservedLandmark> seen, const MapState& map) {
   return Search(seen, map).run();
 }
 
-int count_contradictions(std::span<const SeenLandmark> seen, const MapState& map) {
-  std::vector<std::pair<const SeenLandmark*, int>> known;
-  for (const SeenLandmark& each : seen) {
+int count_contradictions(std::span<const ObservedLandmark> seen, const MapState& map) {
+  std::vector<std::pair<const ObservedLandmark*, int>> known;
+  for (const ObservedLandmark& each : seen) {
     const auto at = each.id && each.times > 1 ? std::ranges::find(map.ids, *each.id) : map.ids.end();
     if (at != map.ids.end()) known.emplace_back(&each, static_cast<int>(at - map.ids.begin()));
   }

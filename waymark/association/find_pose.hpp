@@ -13,7 +13,7 @@
 namespace waymark {
 
 /// A landmark as the robot saw it: robot frame, m.
-struct SeenLandmark {
+struct ObservedLandmark {
   std::optional<LandmarkId> id;
   Eigen::Vector2d p_robot = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
@@ -39,10 +39,10 @@ struct PoseCandidates {
 /// all. The pose of the largest consensus, of several the nearest fit, is then fitted to all that agree.
 /// A map of 2-D landmarks. Nothing agrees where no pair does. O(s^3 n^2) at worst for s seen without identity
 /// and n in the map, O(s^3) with identities: not for the hot loop.
-[[nodiscard]] PoseCandidates find_pose(std::span<const SeenLandmark> seen, const MapState& map);
+[[nodiscard]] PoseCandidates find_pose(std::span<const ObservedLandmark> seen, const MapState& map);
 
 /// How many pairs of landmarks with identities that were seen more than once stand at another distance than
 /// in the map (99.9 % gates, as above).
-[[nodiscard]] int count_contradictions(std::span<const SeenLandmark> seen, const MapState& map);
+[[nodiscard]] int count_contradictions(std::span<const ObservedLandmark> seen, const MapState& map);
 
 }  // namespace waymark

@@ -5,7 +5,7 @@
 namespace waymark {
 
 struct GateOptions {
-  double probability = 0.999999;  ///< part of the true sightings that may pass
+  double probability = 0.999999;  ///< part of the true observations that may pass
 };
 
 /// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a

@@ -188,14 +188,14 @@ MapState pick(const MapState& first, const MapState& second, const std::vector<C
   std::vector<Index> rows{pose_row, pose_row + 1, pose_row + 2};
   for (Index i = 3; i < n; ++i) rows.push_back(i);
   for (int i = 0; i < std::ssize(second.ids); ++i) {
-    const auto& sightings = second.observations[static_cast<std::size_t>(i)];
+    const auto& landmark_observations = second.observations[static_cast<std::size_t>(i)];
     const auto twin = std::ranges::find(common, i, &Common::second);
     if (twin != common.end()) {
-      map.observations[static_cast<std::size_t>(twin->first)] += sightings;
+      map.observations[static_cast<std::size_t>(twin->first)] += landmark_observations;
       continue;
     }
     map.ids.push_back(second.ids[static_cast<std::size_t>(i)]);
-    map.observations.push_back(sightings);
+    map.observations.push_back(landmark_observations);
     rows.insert(rows.end(), {n + row(i), n + row(i) + 1});
   }
   const Eigen::VectorXd mean = joint.mean(rows);

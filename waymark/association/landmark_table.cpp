@@ -51,7 +51,7 @@ bool LandmarkTable::is_in_map(int landmark) const {
 }
 
 bool LandmarkTable::is_stale(int landmark) const {
-  return !(*this)[landmark].existence.is_confirmed() && travelled_since_m(landmark) > kTentativeWay_m;
+  return !(*this)[landmark].existence.is_confirmed() && travelled_since_m(landmark) > kTentativeDistance_m;
 }
 
 }  // namespace waymark

@@ -38,8 +38,8 @@ class LandmarkTable {
  public:
   explicit LandmarkTable(int capacity);
 
-  /// The robot moves on, by a way as way_m() measures it, turns included.
-  void travel(double way_m) { travelled_m_ += way_m; }
+  /// The robot moves on, by a way as travelled_m() measures it, turns included.
+  void travel(double distance_m) { travelled_m_ += distance_m; }
   /// Scans count from 1; what came before, such as a loaded map, is of scan 0.
   void begin_scan();
   [[nodiscard]] double travelled_m() const { return travelled_m_; }
@@ -75,7 +75,8 @@ class LandmarkTable {
   }
   /// Tentative landmarks are not.
   [[nodiscard]] bool is_in_map(int landmark) const;
-  /// Whether it was never confirmed and the robot has gone too far (kTentativeWay_m) since it was last seen.
+  /// Whether it was never confirmed and the robot has gone too far (kTentativeDistance_m) since it was last
+  /// seen.
   [[nodiscard]] bool is_stale(int landmark) const;
 
  private:

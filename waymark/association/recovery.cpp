@@ -5,8 +5,8 @@
 namespace waymark {
 namespace {
 
-constexpr int kMostGatedInARow = 5;
-const Eigen::Vector3d kSmallestSlip(0.02, 0.02, 0.02);  // sigma of x, y, theta: m, rad
+constexpr int kMaxGatedInARow = 5;
+const Eigen::Vector3d kFirstInflation(0.02, 0.02, 0.02);  // sigma of x, y, theta: m, rad
 
 }  // namespace
 
@@ -15,7 +15,7 @@ bool Recovery::is_lost(std::span<const Innovation> innovations) {
     if (innovation.outcome == Outcome::kMatched) gated_in_a_row_ = 0;
     if (innovation.outcome == Outcome::kGated) ++gated_in_a_row_;
   }
-  return gated_in_a_row_ >= kMostGatedInARow && is_mostly_gated(innovations);
+  return gated_in_a_row_ >= kMaxGatedInARow && is_mostly_gated(innovations);
 }
 
 bool Recovery::is_mostly_gated(std::span<const Innovation> innovations) {
@@ -25,10 +25,10 @@ bool Recovery::is_mostly_gated(std::span<const Innovation> innovations) {
   return count(Outcome::kGated) > count(Outcome::kMatched);
 }
 
-Motion Recovery::smallest_slip() {
-  Motion slip;
-  slip.covariance = kSmallestSlip.cwiseAbs2().asDiagonal();
-  return slip;
+Motion Recovery::first_inflation() {
+  Motion added_motion;
+  added_motion.covariance = kFirstInflation.cwiseAbs2().asDiagonal();
+  return added_motion;
 }
 
 }  // namespace waymark

@@ -19,31 +19,31 @@ class Recovery {
   [[nodiscard]] bool is_lost(std::span<const Innovation> innovations);
 
   /// Calls `inflate(slip)` while `innovations` are mostly gated: it makes the pose less sure by the motion
-  /// `slip`, of zero mean and independent in x, y and theta (robot frame), and gates again what was gated.
-  /// The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight at most: about
-  /// 3 m and 3 rad in all.
+  /// `added_motion`, of zero mean and independent in x, y and theta (robot frame), and gates again what was
+  /// gated. The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight at most:
+  /// about 3 m and 3 rad in all.
   template <class Inflate>
   void recover(std::span<const Innovation> innovations, const Inflate& inflate) {
-    ++slips_;
+    ++recoveries_;
     gated_in_a_row_ = 0;
-    Motion slip = smallest_slip();
-    for (int doublings = 0; doublings < kMostDoublings && is_mostly_gated(innovations); ++doublings) {
-      inflate(slip);
-      slip.covariance *= 4.0;
+    Motion added_motion = first_inflation();
+    for (int doublings = 0; doublings < kMaxDoublings && is_mostly_gated(innovations); ++doublings) {
+      inflate(added_motion);
+      added_motion.covariance *= 4.0;
     }
   }
 
   /// How often the robot was lost.
-  [[nodiscard]] int slips() const { return slips_; }
+  [[nodiscard]] int recoveries() const { return recoveries_; }
 
  private:
-  static constexpr int kMostDoublings = 8;
+  static constexpr int kMaxDoublings = 8;
 
   [[nodiscard]] static bool is_mostly_gated(std::span<const Innovation> innovations);
-  [[nodiscard]] static Motion smallest_slip();
+  [[nodiscard]] static Motion first_inflation();
 
   int gated_in_a_row_ = 0;
-  int slips_ = 0;
+  int recoveries_ = 0;
 };
 
 }  // namespace waymark

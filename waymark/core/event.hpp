@@ -47,7 +47,7 @@ struct YawRate {
   double w_radps = 0.0;
 };
 
-/// A picture: named by its file, to be loaded by who needs the pixels; or with its pixels where a simulator
+/// An image: named by its file, to be loaded by who needs the pixels; or with its pixels where a simulator
 /// or a camera has them in memory; or with the bytes of its file (JPEG, PNG), as bags have them.
 struct Image {
   std::string file;
@@ -55,7 +55,7 @@ struct Image {
   std::shared_ptr<const std::string> encoded = nullptr;
 };
 
-/// A square marker that another program found in a picture: its corners clockwise from the upper left of its
+/// A square marker that another program found in an image: its corners clockwise from the upper left of its
 /// pattern, px; the centre of the first pixel is at (0, 0).
 struct MarkerOutline {
   std::int32_t id = -1;
@@ -64,7 +64,7 @@ struct MarkerOutline {
   friend bool operator==(const MarkerOutline&, const MarkerOutline&) = default;
 };
 
-/// All of one picture.
+/// All of one image.
 using MarkerOutlines = std::vector<MarkerOutline>;
 
 /// Where the truth sensor really was. The heading may be unknown.

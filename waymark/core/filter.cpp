@@ -20,7 +20,7 @@ const char* describe(Outcome outcome) {
       return "ambiguous";
     case Outcome::kDuplicate:
       return "seen twice in one scan";
-    case Outcome::kPending:
+    case Outcome::kDeferred:
       return "kept until its landmark can be located";
     case Outcome::kMapFull:
       return "map full";

@@ -22,8 +22,8 @@ enum class Outcome : std::uint8_t {
   kUnidentified,  ///< carries no identity, and this filter was told that identities are known
   kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
   kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
-  kDuplicate,  ///< a second sighting of one landmark in one scan
-  kPending,    ///< kept until it can be told, with others, where its landmark is
+  kDuplicate,  ///< a second observation of one landmark in one scan
+  kDeferred,   ///< kept until it can be told, with others, where its landmark is
   kMapFull,    ///< would have been a new landmark, but there is no room
   kNotInMap,   ///< of no landmark of a map that is held as it is
 };
@@ -37,7 +37,7 @@ struct Innovation {
   int dof = 0;        ///< 0 where nothing was compared
   double nis = 0.0;   ///< nu^T S^-1 nu: chi-square with `dof` degrees of freedom if all is well
   double gate = 0.0;  ///< the NIS above which it is refused
-  /// Of this sighting before anything of its scan was used: -1/2 (NIS + log |2 pi S|), in m, rad and px.
+  /// Of this observation before anything of its scan was used: -1/2 (NIS + log |2 pi S|), in m, rad and px.
   /// Where a filter that is lost then widens what it expects, `nis` is of the wider expectation, but not
   /// this.
   double log_density = 0.0;

@@ -47,7 +47,7 @@ struct MapState {
   Stamp stamp;
   Pose2 T_world_robot;
   std::vector<LandmarkId> ids;
-  std::vector<int> observations;       ///< sightings per landmark
+  std::vector<int> observations;       ///< observations per landmark
   Eigen::VectorXd landmarks;           ///< stacked positions, m
   Eigen::MatrixXd covariance;          ///< symmetric, 3 + dimension * landmarks
   std::vector<LandmarkPatch> patches;  ///< of landmarks that a camera looks for

@@ -10,7 +10,7 @@ bool is_finite(const Motion& motion) {
          motion.covariance.allFinite();
 }
 
-double way_m(const Motion& motion) {
+double travelled_m(const Motion& motion) {
   constexpr double kMetresPerRadian = 0.3;
   return motion.increment.position().norm() + kMetresPerRadian * std::abs(motion.increment.theta_rad);
 }

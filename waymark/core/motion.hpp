@@ -25,7 +25,7 @@ struct Motion {
 
 /// How far a motion takes the robot's view along, m: its length, and its turn as 0.3 m per radian. A turn on
 /// the spot shows a landmark from no new place, but at a new bearing.
-[[nodiscard]] double way_m(const Motion& motion);
+[[nodiscard]] double travelled_m(const Motion& motion);
 
 /// Two motions in a row as one: T_0_2 = T_0_1 * T_1_2, covariance to first order.
 [[nodiscard]] Motion compose(const Motion& first, const Motion& second);

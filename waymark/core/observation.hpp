@@ -46,7 +46,7 @@ struct Pixel {
 
 using Measurement = std::variant<RangeBearing, Range, Bearing, Pixel>;
 
-/// One sighting of one landmark.
+/// One observation of one landmark.
 struct Observation {
   std::optional<LandmarkId> id;  ///< empty: the sensor cannot tell who it saw
   Measurement value;

@@ -6,17 +6,17 @@
 
 namespace waymark {
 
-ThreadTeam::ThreadTeam(int threads) {
+ThreadPool::ThreadPool(int threads) {
   workers_ = start_threads(
       threads - 1, [this] { work(); }, [this] { stop(); });
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadPool::~ThreadPool() {
   stop();
   for (auto& worker : workers_) worker.join();
 }
 
-void ThreadTeam::stop() {
+void ThreadPool::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
@@ -24,7 +24,7 @@ void ThreadTeam::stop() {
   wake_.notify_all();
 }
 
-void ThreadTeam::start(int blocks, Call call, void* context) {
+void ThreadPool::start(int blocks, Call call, void* context) {
   std::unique_lock lock(mutex_);
   call_ = call;
   context_ = context;
@@ -38,7 +38,7 @@ void ThreadTeam::start(int blocks, Call call, void* context) {
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void ThreadTeam::take_blocks(std::unique_lock<std::mutex>& lock) {
+void ThreadPool::take_blocks(std::unique_lock<std::mutex>& lock) {
   while (next_block_ < blocks_) {
     const int block = next_block_++;
     lock.unlock();
@@ -52,14 +52,14 @@ void ThreadTeam::take_blocks(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-void ThreadTeam::give_up(std::exception_ptr failure) {
+void ThreadPool::give_up(std::exception_ptr failure) {
   const std::lock_guard lock(mutex_);
   if (!failure_) failure_ = std::move(failure);
   unfinished_ -= blocks_ - next_block_;  // nobody takes them any more
   next_block_ = blocks_;
 }
 
-void ThreadTeam::work() {
+void ThreadPool::work() {
   std::unique_lock lock(mutex_);
   std::uint64_t seen = 0;
   while (true) {

@@ -13,13 +13,13 @@ namespace waymark {
 /// A few threads that wait for the same job over numbered blocks. The work is cut into blocks by the caller,
 /// independently of the number of threads, so that results do not depend on it. Starting a job allocates
 /// nothing.
-class ThreadTeam {
+class ThreadPool {
  public:
   /// `threads` >= 1, the caller's included. Throws std::system_error where they cannot be started.
-  explicit ThreadTeam(int threads);
-  ~ThreadTeam();
-  ThreadTeam(const ThreadTeam&) = delete;
-  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   [[nodiscard]] int size() const { return static_cast<int>(workers_.size()) + 1; }
 

@@ -24,7 +24,7 @@ using CalibrationCovariance = Eigen::Matrix<double, kCalibrationSize, kCalibrati
 
 /// What is not known better than by this part of the standard deviation that was assumed rests on that
 /// assumption more than on what was measured: the square root of a half.
-inline constexpr double kTold = 0.7071;
+inline constexpr double kObservableRatio = 0.7071;
 
 /// What was learnt of them.
 struct CalibrationEstimate {
@@ -34,8 +34,8 @@ struct CalibrationEstimate {
 
   [[nodiscard]] bool is_estimated(CalibrationIndex index) const { return sigmas[index] > 0.0; }
   /// Estimated, but what was measured depends on it so little that it is what it was assumed to be.
-  [[nodiscard]] bool is_untold(CalibrationIndex index) const {
-    return is_estimated(index) && sigmas[index] > kTold * prior_sigmas[index];
+  [[nodiscard]] bool is_unobservable(CalibrationIndex index) const {
+    return is_estimated(index) && sigmas[index] > kObservableRatio * prior_sigmas[index];
   }
 };
 

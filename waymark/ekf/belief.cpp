@@ -19,11 +19,12 @@ Eigen::Matrix3d Belief::landmark_covariance(int index) const {
   return P_landmark;
 }
 
-Eigen::Matrix2d Belief::innovation_covariance(const Sighting& sighting) const {
-  return common_covariance(sighting, sighting) + sighting.R;  // Vincke (11)
+Eigen::Matrix2d Belief::innovation_covariance(const LinearizedObservation& linearized) const {
+  return common_covariance(linearized, linearized) + linearized.R;  // Vincke (11)
 }
 
-Eigen::Matrix2d Belief::common_covariance(const Sighting& a, const Sighting& b) const {
+Eigen::Matrix2d Belief::common_covariance(const LinearizedObservation& a,
+                                          const LinearizedObservation& b) const {
   const Touched t = layout_.touched(a, 2);
   const Touched u = layout_.touched(b, 2);
   Eigen::Matrix2d common = Eigen::Matrix2d::Zero();
@@ -39,8 +40,8 @@ Eigen::Matrix2d Belief::common_covariance(const Sighting& a, const Sighting& b) 
   return common;
 }
 
-Eigen::Matrix<double, 3, 2> Belief::pose_correlation(const Sighting& sighting) const {
-  const Touched t = layout_.touched(sighting, 2);
+Eigen::Matrix<double, 3, 2> Belief::pose_correlation(const LinearizedObservation& linearized) const {
+  const Touched t = layout_.touched(linearized, 2);
   Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
   for (int i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < t.J.cols(); ++j)

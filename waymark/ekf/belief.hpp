@@ -9,12 +9,12 @@
 #include "waymark/core/motion.hpp"
 #include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/covariance.hpp"
-#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/linearized_observation.hpp"
 #include "waymark/ekf/state_layout.hpp"
 
 namespace waymark::ekf {
 
-/// What is believed of the robot, the lasting errors and the landmarks: a mean and a covariance, and all that
+/// What is believed of the robot, the biases and the landmarks: a mean and a covariance, and all that
 /// follows from these. Nothing here changes them; State does, which is a belief. World frame, m and rad.
 class Belief {
  public:
@@ -38,13 +38,13 @@ class Belief {
     return layout_.landmark(first_.data(), index);
   }
 
-  /// Expected values of a pair of lasting errors; zero at first, and certainly so.
+  /// Expected values of a pair of biases; zero at first, and certainly so.
   [[nodiscard]] Eigen::Vector2d errors(int pair) const { return error_pair(x_.data(), pair); }
   /// Covariance of a pair with another, or with itself.
   [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const {
     return P_.block<2>(error_offset(pair), error_offset(other));
   }
-  /// What is expected of the errors in a sighting.
+  /// What is expected of the errors in an observation.
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const {
     return error_part(x_.data(), terms);
   }
@@ -55,12 +55,13 @@ class Belief {
     return layout_.landmark(linearization(), index);
   }
 
-  /// S = H P H^T + R of one sighting (its leading rows x rows part counts), from marginals only: O(1).
-  [[nodiscard]] Eigen::Matrix2d innovation_covariance(const Sighting& sighting) const;
-  /// H_a P H_b^T: what two sightings have in common besides their noise. O(1).
-  [[nodiscard]] Eigen::Matrix2d common_covariance(const Sighting& a, const Sighting& b) const;
-  /// C = P(pose, :) H^T of one sighting: how what it measures goes with (x, y, theta). O(1).
-  [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const Sighting& sighting) const;
+  /// S = H P H^T + R of one observation (its leading rows x rows part counts), from marginals only: O(1).
+  [[nodiscard]] Eigen::Matrix2d innovation_covariance(const LinearizedObservation& linearized) const;
+  /// H_a P H_b^T: what two observations have in common besides their noise. O(1).
+  [[nodiscard]] Eigen::Matrix2d common_covariance(const LinearizedObservation& a,
+                                                  const LinearizedObservation& b) const;
+  /// C = P(pose, :) H^T of one observation: how what it measures goes with (x, y, theta). O(1).
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(const LinearizedObservation& linearized) const;
 
   /// One entry of the covariance.
   [[nodiscard]] double covariance(std::size_t i, std::size_t j) const { return P_(i, j); }

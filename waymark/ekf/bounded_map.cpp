@@ -9,9 +9,9 @@
 namespace waymark::ekf {
 namespace {
 
-/// Anchors at most, so pictures whose rays may be under way at once. Each takes three rows of the state, as a
+/// Maximum number of anchor poses in the state. Each takes three rows of the state, as a
 /// landmark does: so many are few beside the landmarks, and where they do not do the least useful rays go.
-constexpr int kMostAnchors = 40;
+constexpr int kMaxAnchors = 40;
 /// Linearity index below which a ray may be kept as a point (x, y, z) (Civera, Davison, Montiel 2008).
 constexpr double kLinear = 0.1;
 /// Standard deviation of the depth over the depth below which a ray that has to be settled is kept as a
@@ -21,12 +21,12 @@ constexpr double kFairlySure = 0.1;
 }  // namespace
 
 BoundedMap::BoundedMap(const PixelSlamOptions& options, const Camera& camera, int threads)
-    : map_(options.capacity, kMostAnchors, options.consistency, threads,
+    : map_(options.capacity, kMaxAnchors, options.consistency, threads,
            PixelNoise(options).vibrates() ? 1 : 0),
       management_(options.evict, options.capacity),
       camera_(camera),
-      least_rho_per_m_(1.0 / options.depth.farthest_m) {
-  removed_.reserve(static_cast<std::size_t>(options.capacity + options.most_candidates));
+      min_rho_per_m_(1.0 / options.depth.farthest_m) {
+  removed_.reserve(static_cast<std::size_t>(options.capacity + options.max_candidates));
 }
 
 Result<void> BoundedMap::load(const MapState& saved) {
@@ -51,7 +51,7 @@ MapState BoundedMap::save() const {
   saved.T_world_robot = state.pose().T_world_robot;
   std::vector<int> kept;
   for (int i = 0; i < static_cast<int>(map_.features().size()); ++i)
-    if (map_.feature(i).is_point() || inverse_depth(i).rho > least_rho_per_m_) kept.push_back(i);
+    if (map_.feature(i).is_point() || inverse_depth(i).rho > min_rho_per_m_) kept.push_back(i);
   const auto count = static_cast<int>(kept.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3 + 3 * count, 3 + 3 * state.landmarks());
   J.topLeftCorner<3, 3>().setIdentity();
@@ -75,7 +75,7 @@ MapState BoundedMap::save() const {
   return saved;
 }
 
-void BoundedMap::begin_picture() {
+void BoundedMap::begin_image() {
   removed_.clear();
   management_.begin_scan();
 }
@@ -85,9 +85,9 @@ void BoundedMap::retire() {
     if (management_.keeps_failing(i)) remove(i);
 }
 
-void BoundedMap::matched(int feature, const PoseSighting& sighting) {
+void BoundedMap::matched(int feature, const PoseObservation& linearization) {
   ++map_.feature(feature).observations;
-  management_.matched(feature, sighting);
+  management_.matched(feature, linearization);
 }
 
 bool BoundedMap::make_room() {
@@ -99,8 +99,8 @@ bool BoundedMap::make_room() {
 
 bool BoundedMap::free_an_anchor() {
   if (map_.has_free_anchor()) return true;
-  std::array<double, kMostAnchors> worth{};
-  std::array<int, kMostAnchors> rays{};
+  std::array<double, kMaxAnchors> worth{};
+  std::array<int, kMaxAnchors> rays{};
   for (int i = 0; i < static_cast<int>(map_.features().size()); ++i) {
     if (map_.feature(i).is_point()) continue;
     const auto anchor = static_cast<std::size_t>(map_.feature(i).anchor);

@@ -31,14 +31,14 @@ class BoundedMap {
   [[nodiscard]] MapState save() const;
 
   /// Forgets who has left.
-  void begin_picture();
+  void begin_image();
   /// Landmarks that were missed in more than half of at least ten attempts leave.
   void retire();
   /// The landmark was found where it was expected.
-  void matched(int feature, const PoseSighting& sighting);
+  void matched(int feature, const PoseObservation& linearization);
   /// The landmark was looked for and not found, or found where it cannot be.
   void missed(int feature) { management_.missed(feature); }
-  /// Who left since the picture began: landmarks, and candidates that were given up.
+  /// Who left since the image began: landmarks, and candidates that were given up.
   [[nodiscard]] std::span<const LandmarkId> removed() const { return removed_; }
 
   /// Whether there is room for one more landmark, if need be by removing the least useful one.
@@ -46,7 +46,7 @@ class BoundedMap {
   /// Whether there is a free anchor, if need be by settling the rays of the one whose rays are least useful
   /// of those that nobody sees or needs: those of fairly sure depth as points, the others are removed.
   [[nodiscard]] bool free_an_anchor();
-  /// Appends a ray (x, y, rho) as PixelMap::add_ray() does, seen in so many pictures already. Its index. The
+  /// Appends a ray (x, y, rho) as PixelMap::add_ray() does, seen in so many images already. Its index. The
   /// map must not be full.
   int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
               const ErrorTerms& errors, int observations);
@@ -69,7 +69,7 @@ class BoundedMap {
   PixelMap map_;
   MapManagement management_;
   Camera camera_;
-  double least_rho_per_m_;  ///< of a ray that is saved
+  double min_rho_per_m_;  ///< of a ray that is saved
   std::vector<LandmarkId> removed_;
 };
 

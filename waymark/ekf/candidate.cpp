@@ -16,7 +16,7 @@ void Candidate::start(LandmarkId seen, int from, const Eigen::Vector2d& ray_xy,
   xy = ray_xy;
   xy_covariance = covariance;
   depths.restart();
-  pictures = looks = matches = 0;
+  images = looks = matches = 0;
 }
 
 CandidatePrediction::CandidatePrediction(const Candidate& candidate, const PixelMap& map,
@@ -43,13 +43,13 @@ std::optional<CandidatePrediction::PredictedPixel> CandidatePrediction::at(doubl
   const PixelNoise& noise = prediction_.noise();
   const ErrorTerms shaken = noise.vibration(h->p_camera, h->dpixel_dpoint);
   const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
-  const double wandered_px2 = rho_per_m > 0.0
-                                  ? noise.wandered_px2(point_of_ray(anchor_, ray).p_world,
-                                                       anchor_.p_world_camera, here_.p_world_camera)
-                                  : 0.0;
-  return PredictedPixel{h->predicted, H * P_ * H.transpose() +
-                                          H_xy * candidate_.xy_covariance * H_xy.transpose() +
-                                          J * J.transpose() + wandered_px2 * Eigen::Matrix2d::Identity()};
+  const double process_noise_px2 = rho_per_m > 0.0
+                                       ? noise.process_noise_px2(point_of_ray(anchor_, ray).p_world,
+                                                                 anchor_.p_world_camera, here_.p_world_camera)
+                                       : 0.0;
+  return PredictedPixel{h->predicted,
+                        H * P_ * H.transpose() + H_xy * candidate_.xy_covariance * H_xy.transpose() +
+                            J * J.transpose() + process_noise_px2 * Eigen::Matrix2d::Identity()};
 }
 
 std::optional<Expectation> CandidatePrediction::expect() const {
@@ -68,7 +68,7 @@ std::optional<Expectation> CandidatePrediction::expect() const {
     const Eigen::Vector2d d = one.pixel - expected.predicted_px;
     expected.S += weight * (one.S + d * d.transpose());
   }
-  if (!prediction_.is_in_picture(expected.predicted_px) || !expected.S.allFinite()) return std::nullopt;
+  if (!prediction_.is_in_image(expected.predicted_px) || !expected.S.allFinite()) return std::nullopt;
   expected.p_world_m = point_of_ray(anchor_, candidate_.ray(mean)).p_world;
   return expected;
 }

@@ -21,9 +21,9 @@ struct Candidate {
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();  ///< its ray, in the camera of the anchor
   Eigen::Matrix2d xy_covariance = Eigen::Matrix2d::Zero();
   DepthParticles depths;
-  int pictures = 0;  ///< since it began
-  int looks = 0;     ///< of these, in which it was looked for
-  int matches = 0;   ///< of these, in which it was found
+  int images = 0;   ///< since it began
+  int looks = 0;    ///< of these, in which it was looked for
+  int matches = 0;  ///< of these, in which it was found
 
   [[nodiscard]] bool is_free() const { return anchor < 0; }
   /// Takes the slot for something that was just seen.
@@ -31,7 +31,7 @@ struct Candidate {
   [[nodiscard]] Eigen::Vector3d ray(double rho_per_m) const { return {xy.x(), xy.y(), rho_per_m}; }
 };
 
-/// Where a candidate should appear in the present picture. What this depends on besides the depth, robot and
+/// Where a candidate should appear in the present image. What this depends on besides the depth, robot and
 /// anchor with their joint covariance, is fetched once for all depths. A view of its arguments, which must
 /// not change meanwhile.
 class CandidatePrediction {

@@ -8,21 +8,21 @@
 namespace waymark::ekf {
 namespace {
 
-/// A region can hold what one update sees and something else.
-constexpr int kSmallestRegion = State::kMaxSightings * 3 / 2;
-/// A region has room for this many times what is seen at once, and a part in so many of it stays for the
+/// A submap can hold what one update sees and something else.
+constexpr int kSmallestSubmap = State::kMaxObservations * 3 / 2;
+/// A submap has room for this many times what is seen at once, and a part in so many of it stays for the
 /// next.
-constexpr int kRegionPerView = 3;
-/// Over how many updates the work of a switch of region is spread, if there is time.
+constexpr int kSubmapPerView = 3;
+/// Over how many updates the work of a switch of submap is spread, if there is time.
 constexpr double kSpread = 256.0;
 
-int region_capacity(int capacity, const Compression& compression) {
-  return std::min(capacity, std::max(compression.onset, kRegionPerView * compression.region));
+int submap_capacity(int capacity, const Compression& compression) {
+  return std::min(capacity, std::max(compression.onset, kSubmapPerView * compression.submap));
 }
 
 int slots_for(int capacity, const Compression& compression) {
   const bool never = capacity <= compression.onset;
-  return never ? 0 : capacity + region_capacity(capacity, compression);
+  return never ? 0 : capacity + submap_capacity(capacity, compression);
 }
 
 /// P(row, :) J^T for the robot and the errors that something depends on.
@@ -38,9 +38,9 @@ Eigen::Vector2d correlation(const Belief& state, std::size_t row, const Touched&
 CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
                                  const Compression& compression, int threads, int error_pairs)
     : capacity_(capacity),
-      compression_{std::max(compression.region, kSmallestRegion),
-                   std::max(compression.onset, kSmallestRegion)},
-      active_(dimension, region_capacity(capacity, compression_), consistency, threads, error_pairs),
+      compression_{std::max(compression.submap, kSmallestSubmap),
+                   std::max(compression.onset, kSmallestSubmap)},
+      active_(dimension, submap_capacity(capacity, compression_), consistency, threads, error_pairs),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
       passive_(dimension, active_.layout().head, slots_for(capacity, compression_),
                slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
@@ -52,12 +52,12 @@ CompressedState::CompressedState(int dimension, int capacity, Consistency consis
   free_slots_.reserve(local_of_slot_.size());
   for (auto* by_member : {&seen_, &ranked_}) by_member->reserve(static_cast<std::size_t>(active_.capacity()));
   members_.reserve(static_cast<std::size_t>(active_.capacity()));
-  local_sightings_.reserve(kMaxSightings);
+  local_linearizations_.reserve(kMaxObservations);
 }
 
 int CompressedState::limit() const {
-  return std::clamp(kRegionPerView * most_seen_,
-                    compressing_ ? compression_.region : std::min(compression_.onset, capacity_),
+  return std::clamp(kSubmapPerView * max_seen_,
+                    compressing_ ? compression_.submap : std::min(compression_.onset, capacity_),
                     active_.capacity());
 }
 
@@ -78,38 +78,38 @@ void CompressedState::predict(const Motion& motion, const ErrorTerms& errors) {
   seen_this_step_ = 0;
 }
 
-void CompressedState::relax_errors(int pair, double rho) {
-  active_.relax_errors(pair, rho);
-  if (compressing_) since_.relax_errors(pair, rho);
+void CompressedState::propagate_bias(int pair, double rho) {
+  active_.propagate_bias(pair, rho);
+  if (compressing_) since_.propagate_bias(pair, rho);
 }
 
 void CompressedState::join() {
-  const Eigen::Vector2d displacement = active_.join_robot_rows();
+  const Eigen::Vector2d displacement = active_.propagate_cross_covariance();
   if (compressing_) since_.carry(displacement);
 }
 
-bool CompressedState::update(std::span<const Sighting> sightings) {
-  if (!propose(sightings)) return false;
+bool CompressedState::update(std::span<const LinearizedObservation> linearizations) {
+  if (!propose(linearizations)) return false;
   accept();
   return true;
 }
 
-bool CompressedState::propose(std::span<const Sighting> sightings) {
-  assert(sightings.size() <= kMaxSightings);
+bool CompressedState::propose(std::span<const LinearizedObservation> linearizations) {
+  assert(linearizations.size() <= kMaxObservations);
   if (!std::exchange(proposed_, true)) {
     ++now_;
-    for (const Sighting& sighting : sightings) count(sighting.landmark);
+    for (const LinearizedObservation& linearization : linearizations) count(linearization.landmark);
   }
-  bring_in(sightings);
+  bring_in(linearizations);
   join();
-  proposed_ = active_.propose(local_sightings_);
+  proposed_ = active_.propose(local_linearizations_);
   return proposed_;
 }
 
 void CompressedState::accept() {
   proposed_ = false;
-  if (!local_sightings_.empty()) {
-    if (compressing_) since_.project(local_sightings_, active_.layout());
+  if (!local_linearizations_.empty()) {
+    if (compressing_) since_.project(local_linearizations_, active_.layout());
     active_.accept();
     if (compressing_) since_.absorb(active_.gain());
   }
@@ -120,7 +120,7 @@ void CompressedState::accept() {
 void CompressedState::count(int landmark) {
   const bool again = is_active(landmark) && seen_[static_cast<std::size_t>(local_of(landmark))] > step_began_;
   seen_this_step_ += again ? 0 : 1;
-  most_seen_ = std::max(most_seen_, seen_this_step_);
+  max_seen_ = std::max(max_seen_, seen_this_step_);
 }
 
 void CompressedState::consider(std::span<const int> landmarks) {
@@ -135,16 +135,16 @@ void CompressedState::mark_seen(int landmark) {
   if (is_active(landmark)) seen_[static_cast<std::size_t>(local_of(landmark))] = now_;
 }
 
-/// All that is sighted enters the region, and the sightings get its indices.
-void CompressedState::bring_in(std::span<const Sighting> sightings) {
-  for (const Sighting& sighting : sightings) mark_seen(sighting.landmark);
-  for (const Sighting& sighting : sightings)
-    if (!is_active(sighting.landmark)) activate(slot_of(sighting.landmark));
-  local_sightings_.assign(sightings.begin(), sightings.end());
-  for (Sighting& sighting : local_sightings_) sighting = in_active(sighting);
+/// All that is sighted enters the submap, and the observations get its indices.
+void CompressedState::bring_in(std::span<const LinearizedObservation> linearizations) {
+  for (const LinearizedObservation& linearization : linearizations) mark_seen(linearization.landmark);
+  for (const LinearizedObservation& linearization : linearizations)
+    if (!is_active(linearization.landmark)) activate(slot_of(linearization.landmark));
+  local_linearizations_.assign(linearizations.begin(), linearizations.end());
+  for (LinearizedObservation& linearization : local_linearizations_) linearization = in_active(linearization);
 }
 
-/// An even share; and more if more work than room is left, halfway through the region and later, so that none
+/// An even share; and more if more work than room is left, halfway through the submap and later, so that none
 /// is left when it is full.
 void CompressedState::work() {
   const double room_left =
@@ -157,7 +157,7 @@ int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d&
                          const Eigen::Matrix3d& noise, const ErrorTerms& errors) {
   assert(landmarks() < capacity_);
   ++seen_this_step_;
-  most_seen_ = std::max(most_seen_, seen_this_step_);
+  max_seen_ = std::max(max_seen_, seen_this_step_);
   make_room();
   const int slot = take_slot();
   join();
@@ -178,13 +178,13 @@ void CompressedState::remove(int index) {
   if (local < 0) free_slots_.push_back(slot);
   if (local >= 0) seen_[static_cast<std::size_t>(local)] = kRemoved;
   if (local >= 0 && !compressing_)
-    leave(local);  // else when the region is closed: the accumulators still need it
+    leave(local);  // else when the submap is closed: the compressed terms still need it
   slots_[static_cast<std::size_t>(index)] = slots_.back();
   slots_.pop_back();
 }
 
 int CompressedState::take_slot() {
-  // What left with the last region is needed until the work for it is done.
+  // What left with the last submap is needed until the work for it is done.
   const bool fresh = used_slots_ < static_cast<int>(local_of_slot_.size());
   if (free_slots_.empty() || (!passive_.done() && fresh)) return used_slots_++;
   passive_.finish();
@@ -225,10 +225,10 @@ void CompressedState::activate(int slot) {
 }
 
 void CompressedState::make_room() {
-  if (active_.landmarks() >= limit()) close_region();
+  if (active_.landmarks() >= limit()) close_submap();
 }
 
-void CompressedState::close_region() {
+void CompressedState::close_submap() {
   join();
   passive_.finish();
   passive_.close(members_, active_, compressing_ ? &since_ : nullptr);
@@ -236,15 +236,15 @@ void CompressedState::close_region() {
   since_.restart(active_.size());
   closing_work_ = passive_.remaining();
   compressing_ = true;
-  most_seen_ = seen_this_step_;
+  max_seen_ = seen_this_step_;
   room_ = limit() - active_.landmarks();
-  ++closed_regions_;
+  ++closed_submaps_;
 }
 
 /// All but those seen last.
 void CompressedState::let_the_others_leave() {
-  const int in_view = std::min(seen_this_step_, kMaxSightings);
-  const auto stay = static_cast<std::size_t>(std::max(limit() / kRegionPerView, in_view));
+  const int in_view = std::min(seen_this_step_, kMaxObservations);
+  const auto stay = static_cast<std::size_t>(std::max(limit() / kSubmapPerView, in_view));
   Clock oldest = 0;
   std::ptrdiff_t as_old = active_.landmarks();
   if (stay < seen_.size()) {
@@ -262,7 +262,7 @@ void CompressedState::let_the_others_leave() {
   }
 }
 
-/// What the region's corrections did to a passive landmark, whose columns are in base_.
+/// What the submap's corrections did to a passive landmark, whose columns are in base_.
 Eigen::Vector3d CompressedState::displacement(int slot) const {
   const auto n = static_cast<Eigen::Index>(active_.size());
   passive_.columns(slot, members_, base_.topRows(n));
@@ -281,7 +281,7 @@ CompressedState::Recalled CompressedState::recall(int slot) const {
   for (int a = 0; a < dimension(); ++a) {
     since_.multiply_phi(base_.col(a).head(n), cross_.col(a).head(n));
     since_.multiply_minus_psi(base_.col(a).head(n), minus_psi_base_.col(a).head(n));
-    cross_.col(a).head<2>() += active_.pending() * cross_(2, a);
+    cross_.col(a).head<2>() += active_.deferred() * cross_(2, a);
   }
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
   c.head(dimension()) = cross_.row(2);
@@ -310,28 +310,30 @@ Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
                                                               : landmark(index);
 }
 
-Sighting CompressedState::in_active(const Sighting& sighting) const {
-  Sighting local = sighting;
-  local.landmark = local_of(sighting.landmark);
-  if (sighting.anchor >= 0) local.anchor = local_of(sighting.anchor);
-  if (sighting.second_anchor >= 0) local.second_anchor = local_of(sighting.second_anchor);
+LinearizedObservation CompressedState::in_active(const LinearizedObservation& linearization) const {
+  LinearizedObservation local = linearization;
+  local.landmark = local_of(linearization.landmark);
+  if (linearization.anchor >= 0) local.anchor = local_of(linearization.anchor);
+  if (linearization.second_anchor >= 0) local.second_anchor = local_of(linearization.second_anchor);
   return local;
 }
 
-Sighting CompressedState::moved_back(const Sighting& sighting) const {
-  Sighting back = active_.moved_back(in_active(sighting));
-  back.landmark = sighting.landmark;
-  back.anchor = sighting.anchor;
-  back.second_anchor = sighting.second_anchor;
+LinearizedObservation CompressedState::relinearized_to_prior(
+    const LinearizedObservation& linearization) const {
+  LinearizedObservation back = active_.relinearized_to_prior(in_active(linearization));
+  back.landmark = linearization.landmark;
+  back.anchor = linearization.anchor;
+  back.second_anchor = linearization.second_anchor;
   return back;
 }
 
-Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
-  if (is_active(sighting.landmark)) return active_.innovation_covariance(in_active(sighting));
-  const Recalled now = recall(slot_of(sighting.landmark));
-  const Touched head(sighting.H_pose, sighting.errors);
-  const auto H_landmark = sighting.H_landmark.leftCols(dimension());
-  Eigen::Matrix2d S = sighting.R + sighting.H_landmark * now.covariance * sighting.H_landmark.transpose();
+Eigen::Matrix2d CompressedState::innovation_covariance(const LinearizedObservation& linearization) const {
+  if (is_active(linearization.landmark)) return active_.innovation_covariance(in_active(linearization));
+  const Recalled now = recall(slot_of(linearization.landmark));
+  const Touched head(linearization.H_pose, linearization.errors);
+  const auto H_landmark = linearization.H_landmark.leftCols(dimension());
+  Eigen::Matrix2d S =
+      linearization.R + linearization.H_landmark * now.covariance * linearization.H_landmark.transpose();
   for (Eigen::Index k = 0; k < head.head; ++k) {
     const std::size_t row = head.rows[static_cast<std::size_t>(k)];
     const Eigen::Vector2d J = head.J.col(k).head<2>();
@@ -341,11 +343,13 @@ Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting)
   return S;
 }
 
-Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& sighting) const {
-  if (is_active(sighting.landmark)) return active_.pose_correlation(in_active(sighting));
-  (void)recall(slot_of(sighting.landmark));
-  const Touched head(sighting.H_pose, sighting.errors);
-  Eigen::Matrix<double, 3, 2> C = cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
+Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(
+    const LinearizedObservation& linearization) const {
+  if (is_active(linearization.landmark)) return active_.pose_correlation(in_active(linearization));
+  (void)recall(slot_of(linearization.landmark));
+  const Touched head(linearization.H_pose, linearization.errors);
+  Eigen::Matrix<double, 3, 2> C =
+      cross_.topRows<3>() * linearization.H_landmark.leftCols(dimension()).transpose();
   for (int i = 0; i < 3; ++i) C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
   return C;
 }

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "waymark/core/filter.hpp"
-#include "waymark/ekf/agreement.hpp"
+#include "waymark/ekf/one_point_ransac.hpp"
 #include "waymark/ekf/state.hpp"
 
 namespace waymark::ekf {
@@ -17,32 +17,33 @@ namespace waymark::ekf {
 /// would lead the state far need others to say the same. Nothing allocates after construction.
 class Consensus {
  public:
-  /// Room for so many sightings. `gate` is that of the NIS of one sighting, `area_px2` that of the picture.
+  /// Room for so many observations. `gate` is that of the NIS of one observation, `area_px2` that of the
+  /// image.
   Consensus(std::size_t capacity, double gate, double area_px2);
 
-  /// One outcome per sighting, of S and the innovations of all of them as Agreement takes them: kMatched for
-  /// those that may update the state; kGated for those that contradict them; kUnusable where that cannot be
-  /// told. Valid until the next call. O(sightings^2).
+  /// One outcome per observation, of S and the innovations of all of them as Agreement takes them: kMatched
+  /// for those that may update the state; kGated for those that contradict them; kUnusable where that cannot
+  /// be told. Valid until the next call. O(observations^2).
   [[nodiscard]] std::span<const Outcome> judge(const State::JointCovariance& S,
                                                std::span<const Eigen::Vector2d> nu);
 
-  /// Whether a sighting that did not agree may be used all the same because it fits where the others have led
-  /// (a high-innovation inlier): with its NIS and S, px^2, after their update. These must tell its place: in
-  /// a wide ellipse anything fits.
+  /// Whether an observation that did not agree may be used all the same because it fits where the others have
+  /// led (a high-innovation inlier): with its NIS and S, px^2, after their update. These must tell its place:
+  /// in a wide ellipse anything fits.
   [[nodiscard]] bool rescues(double nis, const Eigen::Matrix2d& S) const;
 
  private:
-  void judge_returning(const State::JointCovariance& S, std::span<const Eigen::Vector2d> nu,
-                       std::span<const char> agrees, std::size_t known);
+  void check_reacquired(const State::JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+                        std::span<const char> agrees, std::size_t known);
   [[nodiscard]] bool judge_together(const State::JointCovariance& S, std::span<const Eigen::Vector2d> nu,
                                     std::size_t known);
 
   double gate_;
-  double agreement_gate_;
+  double consensus_gate_;
   double area_px2_;
-  Agreement all_;
-  Agreement together_;                  ///< of those that come back after long
-  std::vector<std::size_t> returning_;  ///< who they are
+  OnePointRansac all_;
+  OnePointRansac together_;              ///< of those that come back after long
+  std::vector<std::size_t> reacquired_;  ///< who they are
   std::vector<Outcome> outcomes_;
 };
 

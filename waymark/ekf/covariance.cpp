@@ -13,25 +13,25 @@ Covariance::Covariance(std::size_t size, std::size_t capacity)
     : n_(size), ld_(kernels::padded_stride(capacity)), P_(ld_ * ld_), derived_(3 * ld_) {}
 
 void Covariance::defer_to_robot_rows(const Eigen::Vector2d& phi) {
-  pending_phi_ += phi;
-  pending_ = true;
+  deferred_phi_ += phi;
+  deferred_ = true;
 }
 
-Eigen::Vector2d Covariance::join_robot_rows() {
-  if (!pending_) return Eigen::Vector2d::Zero();
+Eigen::Vector2d Covariance::propagate_cross_covariance() {
+  if (!deferred_) return Eigen::Vector2d::Zero();
   double* row_x = row(0);
   double* row_y = row(1);
   const double* row_theta = row(2);
   for (std::size_t j = 3; j < n_; ++j) {  // Vincke (6)
-    row_x[j] += pending_phi_.x() * row_theta[j];
-    row_y[j] += pending_phi_.y() * row_theta[j];
+    row_x[j] += deferred_phi_.x() * row_theta[j];
+    row_y[j] += deferred_phi_.y() * row_theta[j];
   }
-  pending_ = false;
-  return std::exchange(pending_phi_, Eigen::Vector2d::Zero());
+  deferred_ = false;
+  return std::exchange(deferred_phi_, Eigen::Vector2d::Zero());
 }
 
 void Covariance::project(const Touched& J, double* out, std::size_t ld) const {
-  assert(!pending_);
+  assert(!deferred_);
   kernels::project_rows(P_.data(), ld_, n_, J.rows.data(), J.size(), J.J.data(),
                         static_cast<std::size_t>(J.J.rows()), out, ld);
 }
@@ -49,13 +49,13 @@ NewRows Covariance::derive(const Touched& J, const Eigen::Matrix3d& noise) {
 }
 
 void Covariance::append(const NewRows& rows) {
-  assert(!pending_);
+  assert(!deferred_);
   const std::size_t at = std::exchange(n_, n_ + static_cast<std::size_t>(rows.count));
   write(at, at, rows);
 }
 
 void Covariance::replace(std::size_t at, const NewRows& rows) {
-  assert(!pending_);
+  assert(!deferred_);
   write(at, n_, rows);
 }
 
@@ -71,7 +71,7 @@ void Covariance::write(std::size_t at, std::size_t n, const NewRows& rows) {
 }
 
 void Covariance::remove(std::size_t at, std::size_t count) {
-  assert(!pending_);
+  assert(!deferred_);
   const std::size_t from = n_ - count;
   if (at != from) kernels::move_block(P_.data(), ld_, n_, from, at, count);
   n_ = from;

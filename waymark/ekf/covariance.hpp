@@ -22,8 +22,8 @@ struct NewRows {
 /// upper triangle is kept (kernels/layout.hpp), in memory that is taken once.
 ///
 /// A motion of the robot changes P_rr at once, but P_rm, what the robot has in common with everything else,
-/// is only due Phi = [I, phi; 0, 1], which join_robot_rows() makes up for: once per update, not once per
-/// motion. What is asked for in between is answered as if that were done.
+/// is only due Phi = [I, phi; 0, 1], which propagate_cross_covariance() makes up for: once per update, not
+/// once per motion. What is asked for in between is answered as if that were done.
 class Covariance {
  public:
   /// Zeros; never more than `capacity` values.
@@ -33,8 +33,9 @@ class Covariance {
   [[nodiscard]] double operator()(std::size_t i, std::size_t j) const {
     const auto [row, column] = std::minmax(i, j);
     const double p = P_[row * ld_ + column];
-    return pending_ && row < 2 && column >= 3 ? p + pending_phi_[static_cast<int>(row)] * P_[2 * ld_ + column]
-                                              : p;
+    return deferred_ && row < 2 && column >= 3
+               ? p + deferred_phi_[static_cast<int>(row)] * P_[2 * ld_ + column]
+               : p;
   }
   /// cov of the N values from `i` on with those from `j` on.
   template <int N>
@@ -46,9 +47,9 @@ class Covariance {
 
   /// The motion of the robot that P_rm is due: phi as in Phi.
   void defer_to_robot_rows(const Eigen::Vector2d& phi);
-  [[nodiscard]] const Eigen::Vector2d& pending() const { return pending_phi_; }
+  [[nodiscard]] const Eigen::Vector2d& deferred() const { return deferred_phi_; }
   /// P_rm <- Phi P_rm. Returns phi: zero if nothing was due. O(n).
-  Eigen::Vector2d join_robot_rows();
+  Eigen::Vector2d propagate_cross_covariance();
 
   // From here on nothing may be due.
 
@@ -78,8 +79,8 @@ class Covariance {
   std::size_t ld_;
   AlignedArray<double> P_;
   AlignedArray<double> derived_;  // 3 x n: J P of derive()
-  bool pending_ = false;
-  Eigen::Vector2d pending_phi_ = Eigen::Vector2d::Zero();
+  bool deferred_ = false;
+  Eigen::Vector2d deferred_phi_ = Eigen::Vector2d::Zero();
 };
 
 template <int N>

@@ -13,14 +13,14 @@ namespace waymark::ekf {
 namespace {
 
 // Views that are kept of one landmark, the way between them at first, and the fewest that may locate it.
-constexpr std::size_t kMostViews = 12;
+constexpr std::size_t kMaxViews = 12;
 constexpr double kFirstSpacing_m = 0.2;
 constexpr std::size_t kFewestViews = 4;
 // Viewpoints of all landmarks together.
-constexpr int kMostViewpoints = 64;
+constexpr int kMaxViewpoints = 64;
 // How unsure a landmark may be when it is initialised, for its distance from the nearest view.
 constexpr double kSureEnough = 0.1;
-// By how much of its standard deviation a range may leave the linear within that.
+// Maximum linearisation error of a range, in standard deviations.
 constexpr double kBend = 0.3;
 // How far off, by the farthest view, a landmark may be before its views are used: nowhere in particular.
 constexpr double kAnywhere = 100.0;
@@ -64,7 +64,7 @@ bool is_sure(const Located& located, double nearest_m, double range_sigma_m) {
 DeferredInitialiser::DeferredInitialiser(PointMap& map, const PointObservation& sensor,
                                          Consistency consistency)
     : map_(map), sensor_(sensor), iterations_(consistency == Consistency::kFej ? 0 : kIterations) {
-  block_.reserve(kMostViews);
+  block_.reserve(kMaxViews);
 }
 
 /// The sensor's position is a point on the ground like a landmark, and so is the point one metre ahead of it,
@@ -73,7 +73,7 @@ int DeferredInitialiser::viewpoint_here(bool with_direction) {
   if (here_ >= 0 && (!with_direction || viewpoints_[as_index(here_)].ahead >= 0)) return here_;
   const auto slot = std::ranges::find(viewpoints_, 0, &Viewpoint::users);
   const int needed = with_direction ? 2 : 1;
-  if (slot == viewpoints_.end() && std::ssize(viewpoints_) == kMostViewpoints) return -1;
+  if (slot == viewpoints_.end() && std::ssize(viewpoints_) == kMaxViewpoints) return -1;
   if (map_.state().landmarks() + needed >= map_.state().capacity()) return -1;
   const Pose2 T_world_sensor = sensor_.T_world_sensor();
   Viewpoint made{.place = map_.append_point(T_world_sensor.position())};
@@ -101,14 +101,14 @@ Outcome DeferredInitialiser::observe(LandmarkId id, const Observation& observati
   Unlocated& unlocated = *found;
   const double travelled_m = map_.table().travelled_m();
   if (!unlocated.views.empty() && travelled_m - unlocated.observed_at_m < unlocated.spacing_m)
-    return Outcome::kPending;
-  if (unlocated.views.size() == kMostViews) thin(unlocated);
+    return Outcome::kDeferred;
+  if (unlocated.views.size() == kMaxViews) thin(unlocated);
   const int viewpoint = viewpoint_here(std::holds_alternative<Bearing>(observation.value));
-  if (viewpoint < 0) return Outcome::kPending;
+  if (viewpoint < 0) return Outcome::kDeferred;
   ++viewpoints_[as_index(viewpoint)].users;
   unlocated.views.push_back({viewpoint, observation.value, (*observation.covariance)(0, 0)});
   unlocated.observed_at_m = travelled_m;
-  if (unlocated.views.size() < kFewestViews || !locate(unlocated)) return Outcome::kPending;
+  if (unlocated.views.size() < kFewestViews || !locate(unlocated)) return Outcome::kDeferred;
   for (const PartialView& view : unlocated.views) release(view.viewpoint);
   unlocated_.erase(found);
   return Outcome::kAdded;
@@ -135,9 +135,10 @@ DeferredInitialiser::Points DeferredInitialiser::points_of(const PartialView& vi
 
 /// `at` gives the points of the state, by index, that Jacobians are taken at, and `here` those of z - h.
 template <class Here, class At>
-std::optional<Sighting> DeferredInitialiser::look_back(const PartialView& view,
-                                                       const Eigen::Vector2d& p_world, const Here& here,
-                                                       const At& at) const {
+std::optional<LinearizedObservation> DeferredInitialiser::linearize_partial(const PartialView& view,
+                                                                            const Eigen::Vector2d& p_world,
+                                                                            const Here& here,
+                                                                            const At& at) const {
   const Points points = points_of(view);
   const auto pose_of = [&points](const auto& point) -> Pose2 {
     const Eigen::Vector2d place = point(points.place).template head<2>();
@@ -145,53 +146,54 @@ std::optional<Sighting> DeferredInitialiser::look_back(const PartialView& view,
     const Eigen::Vector2d ahead = point(points.ahead).template head<2>() - place;
     return {place.x(), place.y(), std::atan2(ahead.y(), ahead.x())};
   };
-  std::optional<Sighting> sighting =
+  std::optional<LinearizedObservation> linearization =
       linearize(view.value, {pose_of(here), p_world}, {pose_of(at), p_world}, Pose2{});
-  if (!sighting) return std::nullopt;
-  sighting->anchor = points.place;
-  sighting->second_anchor = points.ahead;
-  sighting->H_anchor.leftCols<2>() = sighting->H_pose.leftCols<2>();
+  if (!linearization) return std::nullopt;
+  linearization->anchor = points.place;
+  linearization->second_anchor = points.ahead;
+  linearization->H_anchor.leftCols<2>() = linearization->H_pose.leftCols<2>();
   if (points.ahead >= 0) {
     const Eigen::Vector2d ahead = (at(points.ahead) - at(points.place)).template head<2>();
-    sighting->H_second_anchor.leftCols<2>() =
-        sighting->H_pose.col(2) * perpendicular(ahead).transpose() / ahead.squaredNorm();
-    sighting->H_anchor -= sighting->H_second_anchor;
+    linearization->H_second_anchor.leftCols<2>() =
+        linearization->H_pose.col(2) * perpendicular(ahead).transpose() / ahead.squaredNorm();
+    linearization->H_anchor -= linearization->H_second_anchor;
   }
-  sighting->H_pose.setZero();
+  linearization->H_pose.setZero();
   // What lasted then is white noise in it now.
   const double range_m = (p_world - here(points.place).template head<2>()).norm();
-  const SightingError error = sensor_.error_of({}, range_m, view.value);
-  sighting->errors = error.terms;
-  sighting->R(0, 0) = view.variance + error.unmodelled(0, 0);
-  return sighting;
+  const ObservationBias error = sensor_.error_of({}, range_m, view.value);
+  linearization->errors = error.terms;
+  linearization->R(0, 0) = view.variance + error.unmodelled(0, 0);
+  return linearization;
 }
 
 /// The views of a landmark that is not in the state, given where it is as seen from the robot: so what is
 /// unsure of the robot's own place in the world is unsure of neither side.
-std::optional<ViewsOfOne> DeferredInitialiser::views_at(const Unlocated& unlocated,
-                                                        const Eigen::Vector2d& p_world) const {
+std::optional<LinearizedViews> DeferredInitialiser::views_at(const Unlocated& unlocated,
+                                                             const Eigen::Vector2d& p_world) const {
   const CompressedState& state = map_.state();
   const auto m = std::ssize(unlocated.views);
-  ViewsOfOne views{Eigen::VectorXd(m), {m, 2}, Eigen::MatrixXd(m, m)};
-  std::vector<Sighting> sightings;
+  LinearizedViews views{Eigen::VectorXd(m), {m, 2}, Eigen::MatrixXd(m, m)};
+  std::vector<LinearizedObservation> linearizations;
   const auto here = [&state](int i) { return state.landmark(i); };
   const auto at = [&state](int i) { return state.linearization_landmark(i); };
   for (Eigen::Index i = 0; i < m; ++i) {
-    auto sighting = look_back(unlocated.views[static_cast<std::size_t>(i)], p_world, here, at);
-    if (!sighting) return std::nullopt;
-    views.nu[i] = sighting->nu[0] - state.expected(sighting->errors)[0];
-    views.H.row(i) = sighting->H_landmark.block<1, 2>(0, 0);
-    sighting->H_pose.leftCols<2>() = sighting->H_landmark.leftCols<2>();
-    sighting->H_pose.col(2) =
-        sighting->H_landmark.leftCols<2>() * perpendicular(p_world - state.linearization_pose().position());
-    sighting->landmark = std::exchange(sighting->anchor, std::exchange(sighting->second_anchor, -1));
-    sighting->H_landmark = sighting->H_anchor;
-    sighting->H_anchor = sighting->H_second_anchor;
-    sightings.push_back(*sighting);
+    auto linearization = linearize_partial(unlocated.views[static_cast<std::size_t>(i)], p_world, here, at);
+    if (!linearization) return std::nullopt;
+    views.nu[i] = linearization->nu[0] - state.expected(linearization->errors)[0];
+    views.H.row(i) = linearization->H_landmark.block<1, 2>(0, 0);
+    linearization->H_pose.leftCols<2>() = linearization->H_landmark.leftCols<2>();
+    linearization->H_pose.col(2) = linearization->H_landmark.leftCols<2>() *
+                                   perpendicular(p_world - state.linearization_pose().position());
+    linearization->landmark =
+        std::exchange(linearization->anchor, std::exchange(linearization->second_anchor, -1));
+    linearization->H_landmark = linearization->H_anchor;
+    linearization->H_anchor = linearization->H_second_anchor;
+    linearizations.push_back(*linearization);
     for (Eigen::Index j = 0; j <= i; ++j)
       views.S(i, j) = views.S(j, i) =
-          state.common_covariance(*sighting, sightings[static_cast<std::size_t>(j)])(0, 0) +
-          (i == j ? sighting->R(0, 0) : 0.0);
+          state.common_covariance(*linearization, linearizations[static_cast<std::size_t>(j)])(0, 0) +
+          (i == j ? linearization->R(0, 0) : 0.0);
   }
   return views;
 }
@@ -260,13 +262,13 @@ bool DeferredInitialiser::gather_views(const Unlocated& unlocated, int landmark,
   const auto there = [&state](int i) { return state.proposed_landmark(i); };
   block_.clear();
   for (const PartialView& view : unlocated.views) {
-    auto sighting = at_proposal ? look_back(view, there(landmark).head<2>(), there, there)
-                                : look_back(view, now(landmark).head<2>(), now, first);
-    if (!sighting) return false;
-    sighting->landmark = landmark;
-    sighting->nu -=
-        at_proposal ? state.proposed_expected(sighting->errors) : state.expected(sighting->errors);
-    block_.push_back(at_proposal ? state.moved_back(*sighting) : *sighting);
+    auto linearization = at_proposal ? linearize_partial(view, there(landmark).head<2>(), there, there)
+                                     : linearize_partial(view, now(landmark).head<2>(), now, first);
+    if (!linearization) return false;
+    linearization->landmark = landmark;
+    linearization->nu -=
+        at_proposal ? state.proposed_expected(linearization->errors) : state.expected(linearization->errors);
+    block_.push_back(at_proposal ? state.relinearized_to_prior(*linearization) : *linearization);
   }
   return true;
 }

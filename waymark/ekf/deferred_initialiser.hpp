@@ -26,8 +26,8 @@ class DeferredInitialiser {
   void begin_scan() { here_ = -1; }
 
   /// Takes a range or a bearing of a landmark that is not in the map, after the update of its scan. kAdded if
-  /// the landmark now is, else kPending. Keeps 12 views of a landmark and 64 viewpoints at most. Allocates; a
-  /// view costs O(n), trying to locate a landmark of m views a handful of O(m^3) steps.
+  /// the landmark now is, else kDeferred. Keeps 12 views of a landmark and 64 viewpoints at most. Allocates;
+  /// a view costs O(n), trying to locate a landmark of m views a handful of O(m^3) steps.
   [[nodiscard]] Outcome observe(LandmarkId id, const Observation& observation);
 
  private:
@@ -64,10 +64,11 @@ class DeferredInitialiser {
   void thin(Unlocated& unlocated);
   [[nodiscard]] Points points_of(const PartialView& view) const;
   template <class Here, class At>
-  [[nodiscard]] std::optional<Sighting> look_back(const PartialView& view, const Eigen::Vector2d& p_world,
-                                                  const Here& here, const At& at) const;
-  [[nodiscard]] std::optional<ViewsOfOne> views_at(const Unlocated& unlocated,
-                                                   const Eigen::Vector2d& p_world) const;
+  [[nodiscard]] std::optional<LinearizedObservation> linearize_partial(const PartialView& view,
+                                                                       const Eigen::Vector2d& p_world,
+                                                                       const Here& here, const At& at) const;
+  [[nodiscard]] std::optional<LinearizedViews> views_at(const Unlocated& unlocated,
+                                                        const Eigen::Vector2d& p_world) const;
   void consider_views(const Unlocated& unlocated, int landmark);
   [[nodiscard]] bool locate(const Unlocated& unlocated);
   [[nodiscard]] bool initialise(const Unlocated& unlocated, const Eigen::Vector2d& p_world,
@@ -80,7 +81,7 @@ class DeferredInitialiser {
   std::vector<Viewpoint> viewpoints_;
   std::vector<Unlocated> unlocated_;
   int here_ = -1;  // viewpoint of the present scan
-  std::vector<Sighting> block_;
+  std::vector<LinearizedObservation> block_;
 };
 
 }  // namespace waymark::ekf

@@ -15,7 +15,7 @@ namespace {
 
 /// What particles claim of a depth is made so many times less sure where the state learns it anew: wide
 /// enough that the two pixels it learns from decide, not the particles, which weigh with 1/25 then.
-constexpr double kWidening = 5.0;
+constexpr double kDepthInflation = 5.0;
 
 /// Inverse depth of something that was seen once: two standard deviations span all that it may be.
 DepthParticles::Spread unknown_depth(const DepthPrior& prior) {
@@ -31,18 +31,18 @@ DepthInitialiser::DepthInitialiser(const PixelSlamOptions& options, BoundedMap& 
       map_(map),
       prediction_(prediction),
       gate_(chi2_quantile(options.gate_probability, 2)),
-      candidates_(static_cast<std::size_t>(options.most_candidates),
+      candidates_(static_cast<std::size_t>(options.max_candidates),
                   Candidate{.depths = DepthParticles(options.depth)}) {
   expectations_.reserve(candidates_.size());
 }
 
-void DepthInitialiser::begin_picture() {
+void DepthInitialiser::begin_image() {
   if (anchor_) map_.map().release(*anchor_);
   anchor_.reset();
   for (Candidate& candidate : candidates_) {
     if (candidate.is_free()) continue;
     const bool fails = candidate.looks >= 10 && 2 * candidate.matches < candidate.looks;
-    if (++candidate.pictures > 2 * options_.most_pictures || fails) give_up(candidate);
+    if (++candidate.images > 2 * options_.max_images || fails) give_up(candidate);
   }
 }
 
@@ -75,7 +75,7 @@ void DepthInitialiser::missed(LandmarkId id) {
 bool DepthInitialiser::weigh(LandmarkId id, const Eigen::Vector2d& z_px, const Eigen::Matrix2d& R) {
   Candidate& candidate = candidates_[find(id)];
   const CandidatePrediction predicted(candidate, map_.map(), prediction_);
-  double least_nis = HUGE_VAL;
+  double min_nis = HUGE_VAL;
   ++candidate.looks;
   // w <- w N(z; h(rho), S(rho)) for each depth
   candidate.depths.score([&](double rho_per_m) {
@@ -84,10 +84,10 @@ bool DepthInitialiser::weigh(LandmarkId id, const Eigen::Vector2d& z_px, const E
     const Eigen::Matrix2d S = at->S + R;
     const auto nis = mahalanobis_squared<2>(z_px - at->pixel, S);
     if (!nis) return -HUGE_VAL;
-    least_nis = std::min(least_nis, *nis);
+    min_nis = std::min(min_nis, *nis);
     return -0.5 * (*nis + std::log(S.determinant()));
   });
-  if (!(least_nis <= gate_)) return false;
+  if (!(min_nis <= gate_)) return false;
   candidate.depths.take();  // Vincke Algorithm 1
   ++candidate.matches;
   return true;
@@ -98,8 +98,7 @@ bool DepthInitialiser::is_ready(LandmarkId id) const {
   const auto [mean, sigma] = candidate.depths.depth();
   const bool patient = options_.init == Initialization::kArticle;
   const bool known = sigma < options_.depth_ratio * mean;
-  return candidate.matches >= (known ? options_.least_pictures : options_.most_pictures) &&
-         (known || !patient);
+  return candidate.matches >= (known ? options_.min_images : options_.max_images) && (known || !patient);
 }
 
 std::optional<int> DepthInitialiser::accept(LandmarkId id) {
@@ -111,12 +110,13 @@ std::optional<int> DepthInitialiser::accept(LandmarkId id) {
   PixelMap& map = map_.map();
   const auto [rho, sigma] = candidate.depths.inverse_depth();
   const bool as_point = options_.init == Initialization::kArticle;
-  const double unsure = as_point ? sigma : std::min(kWidening * sigma, unknown_depth(options_.depth).sigma);
+  const double unsure =
+      as_point ? sigma : std::min(kDepthInflation * sigma, unknown_depth(options_.depth).sigma);
   const int anchor = std::exchange(candidate.anchor, -1);
   const int feature =  // Vincke Algorithm 1
       map_.add_ray(candidate.id, anchor, candidate.ray(rho), ray_covariance(candidate.xy_covariance, unsure),
                    {}, candidate.matches + 1);
-  prediction_.let_wander(map, feature, prediction_.place(map, feature), prediction_.camera_pose(map));
+  prediction_.add_process_noise(map, feature, prediction_.place(map, feature), prediction_.camera_pose(map));
   if (as_point) map.make_point(feature, prediction_.camera());
   map.release(anchor);
   return feature;
@@ -131,7 +131,7 @@ Outcome DepthInitialiser::begin(LandmarkId id, const Eigen::Vector2d& z_px, cons
   if (at_once && !map_.make_room()) return Outcome::kMapFull;
   if (!anchor_) anchor_ = map_.map().add_anchor();
   const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * R * ray->dxy_dpixel.transpose();
-  const ErrorTerms shaken = shaken_ray(*ray);
+  const ErrorTerms shaken = jittered_ray(*ray);
   if (at_once) {
     const auto [rho, sigma] = unknown_depth(options_.depth);
     map_.add_ray(id, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, ray_covariance(xy_covariance, sigma), shaken,
@@ -145,11 +145,11 @@ Outcome DepthInitialiser::begin(LandmarkId id, const Eigen::Vector2d& z_px, cons
 }
 
 /// What a vibration of the camera does to the (x, y) of the ray that is seen at a pixel.
-ErrorTerms DepthInitialiser::shaken_ray(const PixelRay& ray) const {
+ErrorTerms DepthInitialiser::jittered_ray(const PixelRay& ray) const {
   const Eigen::Vector3d direction = ray.xy.homogeneous();
   ErrorTerms shaken;
   if (const auto image = prediction_.camera().project(direction))
-    shaken = prediction_.noise().vibration(direction, image->dpixel_dpoint);
+    shaken = prediction_.noise().attitude_jitter(direction, image->dpixel_dpoint);
   shaken[0].J.topRows<2>() = (-ray.dxy_dpixel * shaken[0].J.topRows<2>()).eval();
   return shaken;
 }

@@ -18,7 +18,7 @@ namespace waymark::ekf {
 
 /// Delayed initialisation of landmarks whose depth one pixel does not tell (Davison 2003; the initialisation
 /// part of algorithm 1 in Vincke et al. 2012): what is new begins as a candidate on an anchor that all
-/// candidates of one picture share, later pixels weigh the particles of its depth, and once they know it the
+/// candidates of one image share, later pixels weigh the particles of its depth, and once they know it the
 /// candidate becomes a landmark of the map, as a ray or as a point. Owns the candidates. Takes its memory
 /// once.
 class DepthInitialiser {
@@ -28,8 +28,8 @@ class DepthInitialiser {
 
   /// What begins from now on stands on a new anchor. Candidates that take too long, or were not found in more
   /// than half of at least ten attempts, are given up.
-  void begin_picture();
-  /// The candidates that should be in the picture. Valid until the next call of this.
+  void begin_image();
+  /// The candidates that should be in the image. Valid until the next call of this.
   [[nodiscard]] std::span<const Expectation> expect();
 
   /// How many candidates there are.
@@ -47,7 +47,7 @@ class DepthInitialiser {
   /// A candidate becomes a landmark, whose index in the map this is; nothing, and it is given up, where the
   /// map has no room. O(n) for a state of n values.
   ///
-  /// Its particles took the errors of the robot's way since the anchor for new ones in every picture, while
+  /// Its particles took the errors of the robot's way since the anchor for new ones in every image, while
   /// they are nearly the same in all of them: they are too sure, and know nothing of what the depth has in
   /// common with the pose. A ray is therefore added with its depth less sure than they say. The caller lets
   /// the state learn the depth anew from the pixel that was last weighed: the state holds the poses of this
@@ -61,14 +61,14 @@ class DepthInitialiser {
  private:
   [[nodiscard]] std::size_t find(LandmarkId id) const;
   void give_up(Candidate& candidate);
-  [[nodiscard]] ErrorTerms shaken_ray(const PixelRay& ray) const;
+  [[nodiscard]] ErrorTerms jittered_ray(const PixelRay& ray) const;
 
   PixelSlamOptions options_;
   BoundedMap& map_;
   const PixelPrediction& prediction_;
   double gate_;  ///< of the NIS of a pixel
   std::vector<Candidate> candidates_;
-  std::optional<int> anchor_;  ///< of what begins in this picture
+  std::optional<int> anchor_;  ///< of what begins in this image
   std::vector<Expectation> expectations_;
 };
 

@@ -34,7 +34,7 @@ double DepthParticles::total() const {
 
 void DepthParticles::take() {
   for (Particle& particle : particles_) particle.weight *= std::exp(particle.log_likelihood - best_);
-  const double least = kLeastWeight * total();
+  const double least = kMinWeight * total();
   std::erase_if(particles_, [least](const Particle& particle) { return particle.weight < least; });
   const double scale = 1.0 / total();
   for (Particle& particle : particles_) particle.weight *= scale;

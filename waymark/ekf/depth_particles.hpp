@@ -8,7 +8,7 @@
 
 namespace waymark::ekf {
 
-/// Where along its ray a point may be: particles over its depth, weighted by every picture in which it is
+/// Where along its ray a point may be: particles over its depth, weighted by every image in which it is
 /// found (Davison 2003; Vincke et al. 2012, section 2.4). A particle stands for all depths that are nearer to
 /// it than to others, so that a single one that is left is not a depth that is known for sure. Nothing
 /// allocates after construction.
@@ -59,7 +59,7 @@ class DepthParticles {
     double middle;
     double width;
   };
-  static constexpr double kLeastWeight = 1e-4;
+  static constexpr double kMinWeight = 1e-4;
 
   template <class CellOf>
   [[nodiscard]] Spread spread(const CellOf& cell_of) const;

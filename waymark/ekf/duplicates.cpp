@@ -27,13 +27,13 @@ double farthest_twin_m(const AssociationModel& model) {
                   1.0 / std::sqrt(kPi * density_of_others(model) * std::exp(1.0 + kMergeMargin)));
 }
 
-/// That two landmarks are one, as a sighting: seen from the robot their difference is zero. (Seen in the
+/// That two landmarks are one, as an observation: seen from the robot their difference is zero. (Seen in the
 /// world the same constraint would tell the filter its heading.)
-Sighting twin_difference(const CompressedState& state, int landmark, int twin) {
+LinearizedObservation twin_difference(const CompressedState& state, int landmark, int twin) {
   const Eigen::Matrix2d to_robot = rotation_matrix(-state.linearization_pose().theta_rad);
   const Eigen::Vector2d apart =
       (state.linearization_landmark(landmark) - state.linearization_landmark(twin)).head<2>();
-  Sighting difference;
+  LinearizedObservation difference;
   difference.landmark = landmark;
   difference.anchor = twin;
   difference.nu = -to_robot * (state.landmark(landmark) - state.landmark(twin)).head<2>();
@@ -48,7 +48,7 @@ Sighting twin_difference(const CompressedState& state, int landmark, int twin) {
 std::optional<double> score(PointMap& map, int landmark, int twin, const AssociationModel& model,
                             double gate) {
   map.state().consider(std::array{landmark, twin});
-  const Sighting apart = twin_difference(map.state(), landmark, twin);
+  const LinearizedObservation apart = twin_difference(map.state(), landmark, twin);
   const Eigen::Matrix2d S = map.state().common_covariance(apart, apart) + apart.R;
   const auto d2 = mahalanobis_squared<2>(apart.nu, S);
   if (!d2 || *d2 > gate) return std::nullopt;

@@ -20,8 +20,8 @@ Outcome admissible(const Observation& observation) {
   return observation.id ? Outcome::kMatched : Outcome::kUnidentified;
 }
 
-double log_density(const ekf::Sighting& sighting, double nis, const Eigen::Matrix2d& S) {
-  return sighting.rows == 2 ? log_gaussian<2>(nis, S) : log_gaussian<1>(nis, S.topLeftCorner<1, 1>());
+double log_density(const ekf::LinearizedObservation& linearization, double nis, const Eigen::Matrix2d& S) {
+  return linearization.rows == 2 ? log_gaussian<2>(nis, S) : log_gaussian<1>(nis, S.topLeftCorner<1, 1>());
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ EkfSlam::EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int th
       iterated_(options.iterations, options.likelihood, options.consistency),
       deferred_(map_, observation_, options.consistency) {
   if (options.unknown) unknown_.emplace(*options.unknown, options.gate, sensor, map_, observation_);
-  block_.reserve(ekf::CompressedState::kMaxSightings);
-  seen_.reserve(ekf::CompressedState::kMaxSightings);
+  block_.reserve(ekf::CompressedState::kMaxObservations);
+  seen_.reserve(ekf::CompressedState::kMaxObservations);
   errors_.start(map_.state());
   odometry_.start(map_.state());
 }
@@ -59,8 +59,8 @@ void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_, EkfBlock::kPredict);
   if (!is_still(motion) && is_finite(motion)) {
     odometry_.predict(map_.state(), motion);
-    errors_.drive(way_m(motion));
-    map_.table().travel(way_m(motion));
+    errors_.drive(travelled_m(motion));
+    map_.table().travel(travelled_m(motion));
   }
   timer.finish(EkfBlock::kPredict);
 }
@@ -73,7 +73,8 @@ const Correction& EkfSlam::correct(std::span<const Observation> given) {
   // Match: innovation (10) and its covariance (11) against the gate.
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
   if (recovery_.is_lost(innovations_))
-    recovery_.recover(innovations_, [&](const Motion& slip) { gate_again(slip, observations); });
+    recovery_.recover(innovations_,
+                      [&](const Motion& added_motion) { gate_again(added_motion, observations); });
   if (unknown_) associate_unknown(observations);
   timer.finish(EkfBlock::kAssociate);
   // Estimate: gain, state and covariance (12).
@@ -105,7 +106,7 @@ bool EkfSlam::already_seen(std::size_t index, LandmarkId id) const {
                      [id](const Innovation& earlier) {
                        return earlier.landmark == id &&
                               (earlier.outcome == Outcome::kMatched || earlier.outcome == Outcome::kAdded ||
-                               earlier.outcome == Outcome::kPending);
+                               earlier.outcome == Outcome::kDeferred);
                      });
 }
 
@@ -121,7 +122,7 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
     innovation.outcome = Outcome::kDuplicate;
     return;
   }
-  errors_.sight(map_.state(), innovation.landmark);
+  errors_.assign(map_.state(), innovation.landmark);
   const auto landmark = map_.table().find(innovation.landmark);
   if (!landmark) {
     innovation.outcome = of_no_landmark();  // added if add() finds room
@@ -137,57 +138,60 @@ void EkfSlam::associate_unknown(std::span<const Observation> observations) {
   unknown_->nearby.refresh(map_, observation_.T_world_sensor().position());
   for (const auto& match : unknown_->matcher.match(observations, innovations_, unknown_->nearby)) {
     const auto index = static_cast<std::size_t>(match.observation);
-    matched_[index] = match.sighting.landmark;
-    map_.table().claim(match.sighting.landmark);
-    innovations_[index].landmark = map_.table()[match.sighting.landmark].id;
-    gate(innovations_[index], match.sighting);
-    errors_.sight(map_.state(), innovations_[index].landmark);
+    matched_[index] = match.linearization.landmark;
+    map_.table().claim(match.linearization.landmark);
+    innovations_[index].landmark = map_.table()[match.linearization.landmark].id;
+    gate(innovations_[index], match.linearization);
+    errors_.assign(map_.state(), innovations_[index].landmark);
   }
 }
 
-std::optional<ekf::Sighting> EkfSlam::linearize(std::size_t index, const Observation& observation) const {
+std::optional<ekf::LinearizedObservation> EkfSlam::linearize(std::size_t index,
+                                                             const Observation& observation) const {
   return observation_.linearize(matched_[index], innovations_[index].landmark, observation);
 }
 
-/// Gates one linearised sighting, and tells the map management how useful its landmark was.
-void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::Sighting>& sighting) {
+/// Gates one linearised observation, and tells the map management how useful its landmark was.
+void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedObservation>& linearization) {
   innovation.outcome = Outcome::kUnusable;
-  if (!sighting) return;
-  const Eigen::Matrix2d S = state().innovation_covariance(*sighting);
-  const auto nis = mahalanobis_squared<2>(sighting->nu, S);
+  if (!linearization) return;
+  const Eigen::Matrix2d S = state().innovation_covariance(*linearization);
+  const auto nis = mahalanobis_squared<2>(linearization->nu, S);
   if (!nis) return;
-  if (innovation.dof == 0) innovation.log_density = log_density(*sighting, *nis, S);
-  innovation.dof = sighting->rows;
+  if (innovation.dof == 0) innovation.log_density = log_density(*linearization, *nis, S);
+  innovation.dof = linearization->rows;
   innovation.nis = *nis;
-  innovation.gate = gate_.threshold(sighting->rows);
+  innovation.gate = gate_.threshold(linearization->rows);
   innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
   ekf::MapManagement& management = map_.management();
   if (!management.evicts()) return;
   if (innovation.outcome == Outcome::kMatched)
-    management.matched(sighting->landmark,
-                       {state().pose().covariance, state().pose_correlation(*sighting), S, sighting->H_pose});
+    management.matched(
+        linearization->landmark,
+        {state().pose().covariance, state().pose_correlation(*linearization), S, linearization->H_pose});
   else
-    management.missed(sighting->landmark);
+    management.missed(linearization->landmark);
 }
 
 /// Makes the pose less sure by a slip, and gates again what was refused.
-void EkfSlam::gate_again(const Motion& slip, std::span<const Observation> observations) {
-  map_.state().predict(slip);
+void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation> observations) {
+  map_.state().predict(added_motion);
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kGated) gate(innovations_[i], linearize(i, observations[i]));
 }
 
-/// In blocks of at most kMaxSightings; a later block is linearised at what the earlier ones found.
+/// In blocks of at most kMaxObservations; a later block is linearised at what the earlier ones found.
 void EkfSlam::update(std::span<const Observation> observations) {
   for (std::size_t next = 0; next < observations.size();) {
     block_.clear();
     seen_.clear();
-    for (; next < observations.size() && block_.size() < ekf::CompressedState::kMaxSightings; ++next)
+    for (; next < observations.size() && block_.size() < ekf::CompressedState::kMaxObservations; ++next)
       if (innovations_[next].outcome == Outcome::kMatched) collect(next, observations[next]);
     if (block_.empty()) continue;
-    const bool done = iterated_.apply(map_.state(), block_, [&](std::size_t k, const ekf::Sighting& before) {
-      return observation_.linearize_at_proposal(before, observations[seen_[k]].value);
-    });
+    const bool done =
+        iterated_.apply(map_.state(), block_, [&](std::size_t k, const ekf::LinearizedObservation& before) {
+          return observation_.linearize_at_proposal(before, observations[seen_[k]].value);
+        });
     for (const std::size_t i : seen_) {
       if (done)
         map_.table().observe(matched_[i]);
@@ -198,12 +202,12 @@ void EkfSlam::update(std::span<const Observation> observations) {
 }
 
 void EkfSlam::collect(std::size_t index, const Observation& observation) {
-  const auto sighting = linearize(index, observation);
-  if (!sighting) {
+  const auto linearization = linearize(index, observation);
+  if (!linearization) {
     innovations_[index].outcome = Outcome::kUnusable;
     return;
   }
-  block_.push_back(*sighting);
+  block_.push_back(*linearization);
   seen_.push_back(index);
 }
 
@@ -224,7 +228,7 @@ void EkfSlam::judge_landmarks() {
   ekf::update_existence(map_, nearby, observation_, unknown_->model, unknown_->sensor);
   const auto duplicate = ekf::find_duplicate(map_, nearby, unknown_->model, gate_.threshold(2));
   if (duplicate && ekf::merge(map_, *duplicate)) ++merges_;
-  ekf::remove_ghosts(map_);
+  ekf::remove_false_tracks(map_);
 }
 
 void EkfSlam::add(std::size_t index, const Observation& observation) {
@@ -241,7 +245,7 @@ void EkfSlam::add(std::size_t index, const Observation& observation) {
   if (!observation.id) {
     record = {.id = map_.table().unused_id(), .identity = Identity::kUnknown, .existence = Existence{}};
     innovation.landmark = record.id;
-    errors_.sight(map_.state(), record.id);
+    errors_.assign(map_.state(), record.id);
   }
   const ekf::LocatedPoint located = observation_.locate(record.id, observation);
   const int landmark = map_.append(located.p_world, located.noise, located.errors, record);

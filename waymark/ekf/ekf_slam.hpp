@@ -12,46 +12,46 @@
 #include "waymark/ekf/deferred_initialiser.hpp"
 #include "waymark/ekf/ekf_options.hpp"
 #include "waymark/ekf/iterated_update.hpp"
-#include "waymark/ekf/lasting_errors.hpp"
 #include "waymark/ekf/nearby_landmarks.hpp"
 #include "waymark/ekf/odometry_states.hpp"
 #include "waymark/ekf/point_map.hpp"
 #include "waymark/ekf/point_observation.hpp"
+#include "waymark/ekf/sensor_bias_states.hpp"
 #include "waymark/ekf/unknown_matcher.hpp"
 #include "waymark/models/completed_observations.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark {
 
-/// EKF-SLAM (Vincke et al. 2012 \cite vincke2012) over range-bearing sightings of 2-D landmarks, gated one by
-/// one; a first sighting adds its landmark, in the place of the least useful one when the map is full.
+/// EKF-SLAM (Vincke et al. 2012 \cite vincke2012) over range-bearing observations of 2-D landmarks, gated one
+/// by one; a first observation adds its landmark, in the place of the least useful one when the map is full.
 ///
 /// Ranges alone, or bearings alone, need identities. A landmark that is seen so is not in the state before
 /// several views of it, each with the place that it was seen from as points of the state, leave one position
 /// for it; then all of them correct it at once. Until then it costs a point, or two, per view, out of the
 /// capacity.
 ///
-/// Sightings without identity are refused, or, with EkfOptions::unknown, matched with landmarks that are
+/// Observations without identity are refused, or, with EkfOptions::unknown, matched with landmarks that are
 /// likely. One that is left over begins a landmark if it is outside of the gates of all landmarks even after
 /// the others have corrected the state; in between it is ambiguous and not used. A landmark that was begun so
-/// is tentative, in the state but not in the map, until its Existence is confirmed; ghosts are removed, and
-/// two landmarks that turn out to be one are merged.
+/// is tentative, in the state but not in the map, until its Existence is confirmed; false tracks are removed,
+/// and two landmarks that turn out to be one are merged.
 class EkfSlam final : public Filter {
  public:
-  /// Of `sensor` it takes where it sits, its lasting errors, and its noise where an observation brings no
+  /// Of `sensor` it takes where it sits, its biases, and its noise where an observation brings no
   /// covariance; with EkfOptions::unknown also its limits. `threads` share updates of large maps; the result
   /// does not depend on them. Takes all its memory here. One object must not be used by two threads at once;
   /// two objects may.
   EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int threads = 1);
 
   /// Starts from a saved map of 2-D landmarks, no more than `options.loaded`, with all its correlations; only
-  /// before anything else. Changes nothing where it does not fit. The lasting errors of the sensor begin
+  /// before anything else. Changes nothing where it does not fit. The biases of the sensor begin
   /// anew. What a map says is there is taken to be there: a landmark without identity is neither tentative
   /// nor forgotten.
   [[nodiscard]] Result<void> load(const MapState& map) { return map_.load(map); }
 
   /// From now on the landmarks stay as they are and no others are added: what they are unsure of is
-  /// considered (Schmidt 1966 \cite schmidt1966), and only the pose and the sensor's lasting errors are
+  /// considered (Schmidt 1966 \cite schmidt1966), and only the pose and the sensor's biases are
   /// estimated.
   void hold_landmarks();
 
@@ -67,8 +67,8 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return map_.state(); }
-  /// How often the robot must have slipped far beyond its odometry: see Recovery.
-  [[nodiscard]] int slips() const { return recovery_.slips(); }
+  /// How often the robot was lost and recovered: see Recovery.
+  [[nodiscard]] int recoveries() const { return recovery_.recoveries(); }
   /// Pairs of landmarks that turned out to be one.
   [[nodiscard]] int merges() const { return merges_; }
 
@@ -87,19 +87,19 @@ class EkfSlam final : public Filter {
   void begin_scan(std::size_t count);
   void associate(std::size_t index, const Observation& observation);
   void associate_unknown(std::span<const Observation> observations);
-  void gate(Innovation& innovation, const std::optional<ekf::Sighting>& sighting);
-  void gate_again(const Motion& slip, std::span<const Observation> observations);
+  void gate(Innovation& innovation, const std::optional<ekf::LinearizedObservation>& linearization);
+  void gate_again(const Motion& added_motion, std::span<const Observation> observations);
   void update(std::span<const Observation> observations);
   void collect(std::size_t index, const Observation& observation);
   void settle_unknown(std::span<const Observation> observations);
   void judge_landmarks();
   void add(std::size_t index, const Observation& observation);
-  [[nodiscard]] std::optional<ekf::Sighting> linearize(std::size_t index,
-                                                       const Observation& observation) const;
+  [[nodiscard]] std::optional<ekf::LinearizedObservation> linearize(std::size_t index,
+                                                                    const Observation& observation) const;
   [[nodiscard]] bool already_seen(std::size_t index, LandmarkId id) const;
   [[nodiscard]] Outcome of_no_landmark() const { return held_ ? Outcome::kNotInMap : Outcome::kAdded; }
 
-  ekf::LastingErrors errors_;
+  ekf::SensorBiasStates errors_;
   ekf::OdometryStates odometry_;
   ekf::PointMap map_;
   ekf::PointObservation observation_;
@@ -111,10 +111,10 @@ class EkfSlam final : public Filter {
   std::optional<Unknown> unknown_;
   bool held_ = false;  // nothing is added
   int merges_ = 0;
-  std::vector<Innovation> innovations_;  // one per observation of the last correct()
-  std::vector<int> matched_;             // the same: index of its landmark, or -1
-  std::vector<ekf::Sighting> block_;     // of one update
-  std::vector<std::size_t> seen_;        // their observations
+  std::vector<Innovation> innovations_;            // one per observation of the last correct()
+  std::vector<int> matched_;                       // the same: index of its landmark, or -1
+  std::vector<ekf::LinearizedObservation> block_;  // of one update
+  std::vector<std::size_t> seen_;                  // their observations
   Correction correction_;
   FunctionBlocks blocks_{"FB1 predict", "FB3 associate", "FB6 estimate", "FB9 add"};
 };

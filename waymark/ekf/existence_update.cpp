@@ -9,10 +9,10 @@ bool should_be_seen(const PointMap& map, int landmark, const Eigen::Vector2d& p_
                     const PointObservation& observation, const LandmarkSensor& sensor) {
   if (!is_in_view(sensor, p_sensor)) return false;
   const RangeBearing expected{p_sensor.norm(), std::atan2(p_sensor.y(), p_sensor.x())};
-  const auto sighting = observation.linearize(landmark, map.table()[landmark].id,
-                                              {{}, expected, noise_covariance(sensor, expected)});
-  if (!sighting) return false;
-  const Eigen::Vector2d sigma = map.state().innovation_covariance(*sighting).diagonal().cwiseSqrt();
+  const auto linearization = observation.linearize(landmark, map.table()[landmark].id,
+                                                   {{}, expected, noise_covariance(sensor, expected)});
+  if (!linearization) return false;
+  const Eigen::Vector2d sigma = map.state().innovation_covariance(*linearization).diagonal().cwiseSqrt();
   return is_in_view(sensor, p_sensor, {3.0 * sigma[0], 3.0 * sigma[1]});
 }
 
@@ -36,10 +36,10 @@ void update_existence(PointMap& map, const NearbyLandmarks& nearby, const PointO
   });
 }
 
-void remove_ghosts(PointMap& map) {
+void remove_false_tracks(PointMap& map) {
   const LandmarkTable& table = map.table();
   for (int k = table.size() - 1; k >= 0; --k)
-    if (table[k].existence.is_ghost() || table.is_stale(k)) map.remove(k);
+    if (table[k].existence.is_false_track() || table.is_stale(k)) map.remove(k);
 }
 
 }  // namespace waymark::ekf

@@ -16,6 +16,6 @@ void update_existence(PointMap& map, const NearbyLandmarks& nearby, const PointO
                       const AssociationModel& model, const LandmarkSensor& sensor);
 
 /// Removes the landmarks that were missed too often and those that a single observation left behind.
-void remove_ghosts(PointMap& map);
+void remove_false_tracks(PointMap& map);
 
 }  // namespace waymark::ekf

@@ -13,7 +13,7 @@ namespace {
 /// better than the first.
 constexpr int kMostIterations = 5;
 
-int most_iterations(const PixelSlamOptions& options) {
+int max_iterations(const PixelSlamOptions& options) {
   const bool as_published =
       options.init == Initialization::kArticle || options.update == UpdateMethod::kTextbook;
   return options.consistency == Consistency::kFej || as_published ? 0 : kMostIterations;
@@ -22,28 +22,28 @@ int most_iterations(const PixelSlamOptions& options) {
 }  // namespace
 
 IteratedPixelUpdate::IteratedPixelUpdate(const PixelSlamOptions& options, const PixelPrediction& prediction)
-    : prediction_(prediction), most_iterations_(most_iterations(options)) {
-  found_.reserve(State::kMaxSightings);
-  sightings_.reserve(State::kMaxSightings);
-  refined_.reserve(State::kMaxSightings);
+    : prediction_(prediction), max_iterations_(max_iterations(options)) {
+  found_.reserve(State::kMaxObservations);
+  linearizations_.reserve(State::kMaxObservations);
+  refined_.reserve(State::kMaxObservations);
 }
 
 void IteratedPixelUpdate::clear() {
   found_.clear();
-  sightings_.clear();
+  linearizations_.clear();
 }
 
-void IteratedPixelUpdate::add(const FoundPixel& found, const Sighting& sighting) {
+void IteratedPixelUpdate::add(const FoundPixel& found, const LinearizedObservation& linearization) {
   found_.push_back(found);
-  sightings_.push_back(sighting);
+  linearizations_.push_back(linearization);
 }
 
 bool IteratedPixelUpdate::apply(PixelMap& map) {
-  if (sightings_.empty()) return true;
+  if (linearizations_.empty()) return true;
   State& state = map.state();
-  if (!state.propose(sightings_)) return false;
-  for (int i = 0; i < most_iterations_ && relinearize(map); ++i)
-    if (!state.propose(sightings_)) return false;
+  if (!state.propose(linearizations_)) return false;
+  for (int i = 0; i < max_iterations_ && relinearize(map); ++i)
+    if (!state.propose(linearizations_)) return false;
   state.accept();
   return true;
 }
@@ -55,16 +55,17 @@ bool IteratedPixelUpdate::relinearize(const PixelMap& map) {
   const CameraPose there = prediction_.camera().pose(state.proposed_pose());
   refined_.clear();
   double change = 0.0;
-  for (std::size_t k = 0; k < sightings_.size(); ++k) {
-    const Sighting& before = sightings_[k];
-    const auto sighting = prediction_.linearize_at_proposal(map, found_[k], there);
-    if (!sighting) return false;
-    const Eigen::Vector2d bent = sighting->nu - (before.nu - state.explained(before));
+  for (std::size_t k = 0; k < linearizations_.size(); ++k) {
+    const LinearizedObservation& before = linearizations_[k];
+    const auto linearization = prediction_.linearize_at_proposal(map, found_[k], there);
+    if (!linearization) return false;
+    const Eigen::Vector2d bent = linearization->nu - (before.nu - state.explained(before));
     change = std::max(change, bent.dot(before.R.inverse() * bent));
-    refined_.push_back(*sighting);
+    refined_.push_back(*linearization);
   }
   if (change < kNegligibleChange) return false;
-  for (std::size_t k = 0; k < sightings_.size(); ++k) sightings_[k] = state.moved_back(refined_[k]);
+  for (std::size_t k = 0; k < linearizations_.size(); ++k)
+    linearizations_[k] = state.relinearized_to_prior(refined_[k]);
   return true;
 }
 

@@ -18,8 +18,8 @@ class IteratedPixelUpdate {
   IteratedPixelUpdate(const PixelSlamOptions& options, const PixelPrediction& prediction);
 
   void clear();
-  /// A pixel, and how it is linearised at the present estimate. At most State::kMaxSightings.
-  void add(const FoundPixel& found, const Sighting& sighting);
+  /// A pixel, and how it is linearised at the present estimate. At most State::kMaxObservations.
+  void add(const FoundPixel& found, const LinearizedObservation& linearization);
   /// Updates the state with all of them. False, and nothing changed, if S is not positive definite.
   [[nodiscard]] bool apply(PixelMap& map);
 
@@ -27,10 +27,10 @@ class IteratedPixelUpdate {
   [[nodiscard]] bool relinearize(const PixelMap& map);
 
   const PixelPrediction& prediction_;
-  int most_iterations_;
+  int max_iterations_;
   std::vector<FoundPixel> found_;
-  std::vector<Sighting> sightings_;
-  std::vector<Sighting> refined_;  ///< linearised where the update leads
+  std::vector<LinearizedObservation> linearizations_;
+  std::vector<LinearizedObservation> refined_;  ///< linearised where the update leads
 };
 
 }  // namespace waymark::ekf

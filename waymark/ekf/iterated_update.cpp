@@ -15,12 +15,12 @@ int most(int iterations, Likelihood likelihood, Consistency consistency) {
 
 IteratedUpdate::IteratedUpdate(int iterations, Likelihood likelihood, Consistency consistency)
     : most_(most(iterations, likelihood, consistency)), likelihood_(likelihood) {
-  there_.reserve(State::kMaxSightings);
-  refined_.reserve(State::kMaxSightings);
+  there_.reserve(State::kMaxObservations);
+  refined_.reserve(State::kMaxObservations);
 }
 
-/// By how much a Student-t likelihood widens the noise R of a sighting of which this residual is left.
-double IteratedUpdate::heaviness(const Sighting& left, const Eigen::Matrix2d& R) const {
+/// By how much a Student-t likelihood widens the noise R of an observation of which this residual is left.
+double IteratedUpdate::student_t_weight(const LinearizedObservation& left, const Eigen::Matrix2d& R) const {
   if (likelihood_ == Likelihood::kGaussian) return 1.0;
   return (kStudentDof + left.nu.dot(R.llt().solve(left.nu))) / (kStudentDof + left.rows);
 }

@@ -11,21 +11,21 @@
 namespace waymark {
 namespace {
 
-constexpr int kMostSightings = 20;
-constexpr int kMostDoubt = 20;
+constexpr int kManyObservations = 20;
+constexpr int kMaxDoubt = 20;
 // Landmarks that must agree. Without identities two of them say nothing and a third may do so by chance.
-constexpr int kLeastNamed = 3;
-constexpr int kLeastUnnamed = 5;
-constexpr int kLeastAhead = 2;
+constexpr int kMinKnown = 3;
+constexpr int kMinUnknown = 5;
+constexpr int kMinAhead = 2;
 constexpr int kTimesToBeSure = 2;      // that a landmark is seen, of its identity
 constexpr int kContradictions = 3;     // pairs of landmarks
 constexpr double kLongEnough_s = 8.0;  // of driving without a pose
-constexpr std::size_t kMostRemembered = 32;
+constexpr std::size_t kMaxRemembered = 32;
 // Of the belief that the first update starts from: as good as nothing is known.
 const Eigen::Vector3d kAsGoodAsUnknown(10.0, 10.0, 1.0);
 
-/// First estimates of landmarks that stay are what they are; so no update is taken for news of how the map as
-/// a whole is turned, which the robot's sightings cannot tell.
+/// First estimates of landmarks that stay are what they are; so no update is taken for new information of how
+/// the map as a whole is turned, which the robot's observations cannot tell.
 EkfOptions for_held(EkfOptions options, const MapState& map) {
   options.consistency = ekf::Consistency::kFej;
   options.capacity = options.loaded = std::max<int>(1, static_cast<int>(map.ids.size()));
@@ -39,16 +39,16 @@ bool can_be_placed(const Observation& observation) {
          std::isfinite(z->range_m) && std::isfinite(z->bearing_rad) && z->range_m > kMinDistance_m;
 }
 
-/// Of the errors that outlive a sighting: two that are weeks apart have none in common.
-Eigen::Matrix2d lasting_covariance(const SensorErrors& errors, double range_m) {
-  const double range_ratio = std::hypot(errors.shared_range_sigma_ratio, errors.lasting_range_sigma_ratio);
-  const double bearing_deg = std::hypot(errors.shared_bearing_sigma_deg, errors.lasting_bearing_sigma_deg);
+/// Of the errors that outlive an observation: two that are weeks apart have none in common.
+Eigen::Matrix2d bias_covariance(const SensorErrors& errors, double range_m) {
+  const double range_ratio = std::hypot(errors.shared_range_sigma_ratio, errors.bias_range_sigma_ratio);
+  const double bearing_deg = std::hypot(errors.shared_bearing_sigma_deg, errors.bias_bearing_sigma_deg);
   const Eigen::Vector2d sigma(range_ratio * range_m, to_radians(bearing_deg));
   return sigma.cwiseAbs2().asDiagonal();
 }
 
 /// To the robot's frame after a motion, to first order.
-void move(SeenLandmark& seen, const Motion& motion) {
+void move(ObservedLandmark& seen, const Motion& motion) {
   const Eigen::Matrix2d R = motion.increment.rotation().transpose();
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
   seen.p_robot = motion.increment.inverse() * seen.p_robot;
@@ -58,7 +58,7 @@ void move(SeenLandmark& seen, const Motion& motion) {
 }
 
 /// What a sensor would have measured from here.
-Observation observe(const SeenLandmark& seen, LandmarkId id, const Pose2& T_robot_sensor) {
+Observation observe(const ObservedLandmark& seen, LandmarkId id, const Pose2& T_robot_sensor) {
   const auto h = RangeBearingModel::linearize({}, T_robot_sensor, seen.p_robot);
   return {id, RangeBearing{h.predicted[0], h.predicted[1]},
           Eigen::Matrix2d(h.H_landmark * seen.covariance * h.H_landmark.transpose())};
@@ -70,7 +70,7 @@ Localizer::Localizer(MapState map, const EkfOptions& options, const LandmarkSens
     : map_(std::move(map)),
       T_robot_sensor_(sensor.T_robot_sensor()),
       errors_(sensor.errors),
-      unnamed_(options.unknown.has_value()),
+      unknown_(options.unknown.has_value()),
       completed_(sensor),
       ekf_(for_held(options, map_), sensor, threads) {}
 
@@ -86,33 +86,33 @@ void Localizer::predict(const Motion& motion) {
   if (located_) return ekf_.predict(motion);
   if (!is_finite(motion)) return;
   if (!is_still(motion)) driven_s_ += motion.duration_s;
-  for (SeenLandmark& seen : memory_) move(seen, motion);
+  for (ObservedLandmark& seen : memory_) move(seen, motion);
 }
 
 const Correction& Localizer::correct(std::span<const Observation> observations) {
-  if (!located_) return look_around(completed_.of(observations));
+  if (!located_) return search_pose(completed_.of(observations));
   const Correction& correction = ekf_.correct(observations);
   judge(correction);
   return correction;
 }
 
-/// Sightings that contradict the map far more often than others agree mean that the robot is elsewhere.
+/// Observations that contradict the map far more often than others agree mean that the robot is elsewhere.
 void Localizer::judge(const Correction& correction) {
   doubt_ = std::max(0, doubt_ + correction.count(Outcome::kGated) - correction.count(Outcome::kMatched));
-  if (doubt_ < kMostDoubt) return;
+  if (doubt_ < kMaxDoubt) return;
   ++losses_;
   located_ = false;
-  doubt_ = sightings_ = 0;
+  doubt_ = observations_ = 0;
   driven_s_ = 0.0;
   memory_.clear();
 }
 
-const Correction& Localizer::look_around(std::span<const Observation> observations) {
+const Correction& Localizer::search_pose(std::span<const Observation> observations) {
   innovations_.assign(observations.size(), {});
   searching_ = {innovations_, {}};
   if (refusal_) return searching_;
   for (const Observation& observation : observations)
-    if (can_be_placed(observation) && (observation.id || unnamed_)) remember(observation);
+    if (can_be_placed(observation) && (observation.id || unknown_)) remember(observation);
   if (memory_.size() < 2) return searching_;
   const PoseCandidates found = find_pose(memory_, map_);
   if (is_enough(found)) return settle(found.best);
@@ -120,27 +120,27 @@ const Correction& Localizer::look_around(std::span<const Observation> observatio
   return searching_;
 }
 
-/// The latest sighting of a landmark stands for all of them.
+/// The latest observation of a landmark stands for all of them.
 void Localizer::remember(const Observation& observation) {
   const auto& z = std::get<RangeBearing>(observation.value);
   const auto place = RangeBearingModel::locate({}, T_robot_sensor_, z);
-  const Eigen::Matrix2d R = *observation.covariance + lasting_covariance(errors_, z.range_m);
-  const SeenLandmark seen{observation.id, place.p_world,
-                          place.G_measurement * R * place.G_measurement.transpose()};
-  ++sightings_;
+  const Eigen::Matrix2d R = *observation.covariance + bias_covariance(errors_, z.range_m);
+  const ObservedLandmark seen{observation.id, place.p_world,
+                              place.G_measurement * R * place.G_measurement.transpose()};
+  ++observations_;
   const std::size_t at = place_of(seen);
   if (at < memory_.size()) {
     const int times = memory_[at].times + 1;
     memory_[at] = seen;
     memory_[at].times = times;
-  } else if (memory_.size() < kMostRemembered) {
+  } else if (memory_.size() < kMaxRemembered) {
     memory_.push_back(seen);
   }
 }
 
 /// Where the same landmark is remembered, if it is.
-std::size_t Localizer::place_of(const SeenLandmark& seen) const {
-  const auto found = std::ranges::find_if(memory_, [&](const SeenLandmark& before) {
+std::size_t Localizer::place_of(const ObservedLandmark& seen) const {
+  const auto found = std::ranges::find_if(memory_, [&](const ObservedLandmark& before) {
     if (seen.id || before.id) return seen.id == before.id;
     const auto d2 =
         mahalanobis_squared<2>(seen.p_robot - before.p_robot, seen.covariance + before.covariance);
@@ -151,7 +151,7 @@ std::size_t Localizer::place_of(const SeenLandmark& seen) const {
 
 /// Landmarks seen that the map may have.
 int Localizer::seen_of_map() const {
-  return static_cast<int>(std::ranges::count_if(memory_, [this](const SeenLandmark& seen) {
+  return static_cast<int>(std::ranges::count_if(memory_, [this](const ObservedLandmark& seen) {
     return !seen.id || std::ranges::find(map_.ids, *seen.id) != map_.ids.end();
   }));
 }
@@ -161,10 +161,10 @@ bool Localizer::is_enough(const PoseCandidates& found) const {
   const int candidates = seen_of_map();
   if (3 * agreeing < 2 * candidates) return false;
   const bool named =
-      std::ranges::all_of(memory_, [](const SeenLandmark& seen) { return seen.id.has_value(); });
-  if (!named) return agreeing >= kLeastUnnamed && agreeing >= found.rival + kLeastAhead;
-  const bool no_more = sightings_ >= kMostSightings && std::ssize(memory_) == 2;
-  return agreeing >= kLeastNamed || (no_more && agreeing == 2);
+      std::ranges::all_of(memory_, [](const ObservedLandmark& seen) { return seen.id.has_value(); });
+  if (!named) return agreeing >= kMinUnknown && agreeing >= found.rival + kMinAhead;
+  const bool no_more = observations_ >= kManyObservations && std::ssize(memory_) == 2;
+  return agreeing >= kMinKnown || (no_more && agreeing == 2);
 }
 
 /// Where no two landmarks stand to each other as in the map and some that were seen again contradict it,
@@ -172,17 +172,17 @@ bool Localizer::is_enough(const PoseCandidates& found) const {
 bool Localizer::is_elsewhere(const PoseCandidates& found) const {
   const int enough = driven_s_ < kLongEnough_s ? kContradictions : 1;
   if (found.best.agreeing < 2 && count_contradictions(memory_, map_) >= enough) return true;
-  return sightings_ >= kMostSightings && std::ssize(memory_) >= kLeastNamed;
+  return observations_ >= kManyObservations && std::ssize(memory_) >= kMinKnown;
 }
 
 std::string Localizer::reason(const PoseCandidates& found) const {
   const int candidates = seen_of_map();
-  const std::string seen = concat("of ", memory_.size(), " landmarks seen in ", sightings_, " sightings and ",
-                                  decimals(driven_s_, 0), " s of driving");
+  const std::string seen = concat("of ", memory_.size(), " landmarks seen in ", observations_,
+                                  " observations and ", decimals(driven_s_, 0), " s of driving");
   if (candidates < 2)
     return concat("map: the robot is not in it: ", seen, " the map has ", candidates,
                   "; it is of another place");
-  if (found.best.agreeing >= kLeastUnnamed && found.best.agreeing < found.rival + kLeastAhead)
+  if (found.best.agreeing >= kMinUnknown && found.best.agreeing < found.rival + kMinAhead)
     return concat("map: the robot may be in several places of it: ", seen, " ", found.best.agreeing,
                   " agree on one, ", found.rival, " on another");
   return concat("map: the robot is not in it: ", seen, " no more than ", found.best.agreeing,
@@ -198,7 +198,7 @@ const Correction& Localizer::settle(const PoseCandidate& found) {
       agreeing.push_back(
           observe(memory_[k], map_.ids[static_cast<std::size_t>(found.landmarks[k])], T_robot_sensor_));
   memory_.clear();
-  sightings_ = 0;
+  observations_ = 0;
   return ekf_.correct(agreeing);
 }
 

@@ -16,8 +16,9 @@ namespace waymark {
 /// with all that is remembered, so that pose and map are correlated as they should be. From there on it is
 /// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966 \cite schmidt1966).
 ///
-/// A robot whose sightings contradict the map for long is searched for anew. Where twenty sightings give no
-/// pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the map.
+/// A robot whose observations contradict the map for long is searched for anew. Where twenty observations
+/// give no pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the
+/// map.
 class Localizer final : public Filter {
  public:
   /// A filter over the map, or why it cannot be one. Options and sensor as EkfSlam's; capacity, consistency
@@ -41,27 +42,27 @@ class Localizer final : public Filter {
  private:
   Localizer(MapState map, const EkfOptions& options, const LandmarkSensor& sensor, int threads);
   void remember(const Observation& observation);
-  [[nodiscard]] std::size_t place_of(const SeenLandmark& seen) const;
+  [[nodiscard]] std::size_t place_of(const ObservedLandmark& seen) const;
   [[nodiscard]] bool is_enough(const PoseCandidates& found) const;
   [[nodiscard]] bool is_elsewhere(const PoseCandidates& found) const;
   [[nodiscard]] std::string reason(const PoseCandidates& found) const;
   [[nodiscard]] int seen_of_map() const;
-  const Correction& look_around(std::span<const Observation> observations);
+  const Correction& search_pose(std::span<const Observation> observations);
   const Correction& settle(const PoseCandidate& found);
   void judge(const Correction& correction);
 
   MapState map_;
   Pose2 T_robot_sensor_;
   SensorErrors errors_;
-  bool unnamed_;
+  bool unknown_;
   CompletedObservations completed_;
   EkfSlam ekf_;
   bool located_ = false;
   std::optional<Error> refusal_;
-  std::vector<SeenLandmark> memory_;  // of a robot that is not located
-  int sightings_ = 0;                 // in it
-  double driven_s_ = 0.0;             // meanwhile
-  int doubt_ = 0;                     // sightings that contradict, less those that agree
+  std::vector<ObservedLandmark> memory_;  // of a robot that is not located
+  int observations_ = 0;                  // in it
+  double driven_s_ = 0.0;                 // meanwhile
+  int doubt_ = 0;                         // observations that contradict, less those that agree
   int losses_ = 0;
   std::vector<Innovation> innovations_;
   Correction searching_;

@@ -10,13 +10,13 @@ namespace waymark::ekf {
 
 /// Ranges or bearings of one landmark from m places, linearised at a position of it: nu = z - h (m), H =
 /// dh/dp (m x 2), S the covariance of nu when the position is given (m x m).
-struct ViewsOfOne {
+struct LinearizedViews {
   Eigen::VectorXd nu;
   Eigen::Matrix<double, Eigen::Dynamic, 2> H;
   Eigen::MatrixXd S;
 };
 /// Nothing at a position that cannot be seen from one of the places.
-using LinearizeViews = std::function<std::optional<ViewsOfOne>(const Eigen::Vector2d& p_world)>;
+using LinearizeViews = std::function<std::optional<LinearizedViews>(const Eigen::Vector2d& p_world)>;
 
 /// Where a landmark is by what several views of it say together.
 struct Located {

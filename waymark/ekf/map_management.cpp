@@ -8,23 +8,24 @@
 namespace waymark::ekf {
 namespace {
 
-/// Weight of the newest sighting: the average spans about the last five.
+/// Weight of the newest observation: the average spans about the last five.
 constexpr double kNewest = 0.2;
 
 }  // namespace
 
 // By the determinant lemma |P - C S^-1 C^T| / |P| = |S - C^T P^-1 C| / |S|: what is left of S when the pose
 // is known.
-double information_gain(const PoseSighting& sighting) {
-  const Eigen::Matrix3d P = sighting.P_pose + 1e-12 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix2d given_pose = sighting.S - sighting.C_pose.transpose() * P.inverse() * sighting.C_pose;
-  const double ratio = sighting.S.determinant() / given_pose.determinant();
+double information_gain(const PoseObservation& linearization) {
+  const Eigen::Matrix3d P = linearization.P_pose + 1e-12 * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix2d given_pose =
+      linearization.S - linearization.C_pose.transpose() * P.inverse() * linearization.C_pose;
+  const double ratio = linearization.S.determinant() / given_pose.determinant();
   return ratio > 1.0 && std::isfinite(ratio) ? 0.5 * std::log(ratio) : 0.0;
 }
 
-double article_score(const PoseSighting& sighting) {
-  const Eigen::Matrix<double, 3, 2> K_pose = sighting.C_pose * sighting.S.inverse();  // Vincke (12)
-  return 3.0 - (K_pose * sighting.H_pose).trace();
+double article_score(const PoseObservation& linearization) {
+  const Eigen::Matrix<double, 3, 2> K_pose = linearization.C_pose * linearization.S.inverse();  // Vincke (12)
+  return 3.0 - (K_pose * linearization.H_pose).trace();
 }
 
 MapManagement::MapManagement(Eviction eviction, int capacity) : eviction_(eviction) {
@@ -33,18 +34,18 @@ MapManagement::MapManagement(Eviction eviction, int capacity) : eviction_(evicti
 
 void MapManagement::added(bool pinned) { records_.push_back({.scan = scan_, .pinned = pinned}); }
 
-void MapManagement::matched(int landmark, const PoseSighting& sighting) {
+void MapManagement::matched(int landmark, const PoseObservation& linearization) {
   Record& record = records_[static_cast<std::size_t>(landmark)];
-  ++record.sightings;
+  ++record.observations;
   ++record.matches;
   record.scan = scan_;
-  if (eviction_ == Eviction::kArticle) record.gain = 3.0 - article_score(sighting);
+  if (eviction_ == Eviction::kArticle) record.gain = 3.0 - article_score(linearization);
   if (eviction_ != Eviction::kInformation) return;
-  const double gain = information_gain(sighting);
+  const double gain = information_gain(linearization);
   record.gain += (record.matches == 1 ? 1.0 : kNewest) * (gain - record.gain);
 }
 
-void MapManagement::missed(int landmark) { ++records_[static_cast<std::size_t>(landmark)].sightings; }
+void MapManagement::missed(int landmark) { ++records_[static_cast<std::size_t>(landmark)].observations; }
 
 void MapManagement::removed(int landmark) {
   records_[static_cast<std::size_t>(landmark)] = records_.back();
@@ -52,14 +53,14 @@ void MapManagement::removed(int landmark) {
 }
 
 bool MapManagement::keeps_failing(int landmark) const {
-  constexpr int kLeastAttempts = 10;
+  constexpr int kMinAttempts = 10;
   const Record& record = this->record(landmark);
-  return record.sightings >= kLeastAttempts && 2 * record.matches < record.sightings;
+  return record.observations >= kMinAttempts && 2 * record.matches < record.observations;
 }
 
 double MapManagement::usefulness(const Record& record) const {
-  if (eviction_ == Eviction::kArticle || record.sightings == 0) return record.gain;
-  return record.gain * record.matches / record.sightings;
+  if (eviction_ == Eviction::kArticle || record.observations == 0) return record.gain;
+  return record.gain * record.matches / record.observations;
 }
 
 std::optional<int> MapManagement::least_useful() const {

@@ -10,22 +10,22 @@
 
 namespace waymark::ekf {
 
-/// One sighting against the robot's pose, all before the update: P_pose its covariance, C_pose = P(pose, :)
-/// H^T, S = H P H^T + R.
-struct PoseSighting {
+/// One observation against the robot's pose, all before the update: P_pose its covariance, C_pose = P(pose,
+/// :) H^T, S = H P H^T + R.
+struct PoseObservation {
   Eigen::Matrix3d P_pose;
   Eigen::Matrix<double, 3, 2> C_pose;
   Eigen::Matrix2d S;
   Eigen::Matrix<double, 2, 3> H_pose;
 };
 
-/// What the sighting tells about the pose: 1/2 log(|P| / |P - C S^-1 C^T|) nats, never negative, the same in
-/// all units. 1e-12 I is added to P, which is singular at a known start. 0 if S is not positive definite.
-[[nodiscard]] double information_gain(const PoseSighting& sighting);
+/// What the observation tells about the pose: 1/2 log(|P| / |P - C S^-1 C^T|) nats, never negative, the same
+/// in all units. 1e-12 I is added to P, which is singular at a known start. 0 if S is not positive definite.
+[[nodiscard]] double information_gain(const PoseObservation& linearization);
 
-/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2011): 3 for a
-/// sighting that tells nothing. It adds metres to radians, and is kept for comparison.
-[[nodiscard]] double article_score(const PoseSighting& sighting);
+/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2011): 3 for an
+/// observation that tells nothing. It adds metres to radians, and is kept for comparison.
+[[nodiscard]] double article_score(const PoseObservation& linearization);
 
 /// Remembers how useful the landmarks have been, by their index in the state. Landmarks of the present scan
 /// are never evicted. Nothing but added() beyond the capacity allocates.
@@ -39,7 +39,7 @@ class MapManagement {
   /// A landmark was appended; a pinned one is never evicted.
   void added(bool pinned = false);
   /// The landmark was sighted where it was expected.
-  void matched(int landmark, const PoseSighting& sighting);
+  void matched(int landmark, const PoseObservation& linearization);
   /// The landmark was sighted, but outside its gate.
   void missed(int landmark);
   /// The landmark was removed and the last one took its index.
@@ -60,7 +60,7 @@ class MapManagement {
   struct Record {
     double gain = 0.0;  ///< moving average over the matches
     int matches = 0;
-    int sightings = 0;
+    int observations = 0;
     std::int64_t scan = 0;  ///< the last one in which it was matched or added
     bool pinned = false;
   };

@@ -11,7 +11,7 @@ OdometryErrors OdometryStateOptions::sigmas() const {
 namespace ekf {
 
 void OdometryStates::start(CompressedState& state) const {
-  for (int pair = first_pair_; pair < first_pair_ + pairs(); ++pair) state.relax_errors(pair, 0.0);
+  for (int pair = first_pair_; pair < first_pair_ + pairs(); ++pair) state.propagate_bias(pair, 0.0);
 }
 
 OdometryErrors OdometryStates::mean(const CompressedState& state) const {

@@ -10,7 +10,7 @@ namespace waymark {
 
 namespace ekf {
 
-/// The errors of the odometry as states: constants with a prior, in two pairs of lasting errors, the fourth
+/// The errors of the odometry as states: constants with a prior, in two pairs of biases, the fourth
 /// value of which stands for nothing.
 class OdometryStates {
  public:

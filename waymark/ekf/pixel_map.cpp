@@ -29,7 +29,7 @@ std::optional<int> PixelMap::find(LandmarkId id) const {
 }
 
 std::optional<int> PixelMap::add_anchor() {
-  const auto free = std::ranges::find(anchors_, 0, &Anchor::holders);
+  const auto free = std::ranges::find(anchors_, 0, &AnchorPose::holders);
   if (free == anchors_.end()) return std::nullopt;
   const auto index = static_cast<int>(free - anchors_.begin());
   *free = {state_.add_pose(), 1};
@@ -38,7 +38,7 @@ std::optional<int> PixelMap::add_anchor() {
 }
 
 void PixelMap::release(int anchor) {
-  Anchor& released = anchors_[static_cast<std::size_t>(anchor)];
+  AnchorPose& released = anchors_[static_cast<std::size_t>(anchor)];
   if (--released.holders == 0) remove_element(released.element);
 }
 

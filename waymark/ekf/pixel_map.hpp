@@ -51,7 +51,7 @@ class PixelMap {
   [[nodiscard]] bool is_full() const { return features_.size() == static_cast<std::size_t>(capacity_); }
 
   [[nodiscard]] bool has_free_anchor() const {
-    return std::ranges::any_of(anchors_, [](const Anchor& anchor) { return anchor.holders == 0; });
+    return std::ranges::any_of(anchors_, [](const AnchorPose& anchor) { return anchor.holders == 0; });
   }
   /// The robot's present pose as an anchor, held once; nothing where there is no room for another one.
   [[nodiscard]] std::optional<int> add_anchor();
@@ -75,7 +75,7 @@ class PixelMap {
   void remove(int index);
 
  private:
-  struct Anchor {
+  struct AnchorPose {
     int element = -1;
     int holders = 0;
   };
@@ -90,7 +90,7 @@ class PixelMap {
   int capacity_;
   State state_;
   std::vector<Feature> features_;
-  std::vector<Anchor> anchors_;
+  std::vector<AnchorPose> anchors_;
   std::vector<Owner> owners_;  // by element
 };
 

@@ -18,19 +18,19 @@ PixelNoise::PixelNoise(const PixelSlamOptions& options)
     : own_(options.sigma_px * options.sigma_px * Eigen::Matrix2d::Identity()),
       model_(options.model_sigma_px * options.model_sigma_px * Eigen::Matrix2d::Identity()),
       search_(model_ + kRounding_px2 * Eigen::Matrix2d::Identity()),
-      wander_px_(options.wander_px),
-      vibration_rad_(to_radians(options.vibration_deg)) {}
+      landmark_noise_px_(options.landmark_noise_px),
+      vibration_rad_(to_radians(options.jitter_deg)) {}
 
 Eigen::Matrix2d PixelNoise::of(const Observation& observation) const {
   return model_ + observation.covariance.value_or(own_);
 }
 
-void PixelNoise::begin_picture(State& state) const {
-  if (vibrates()) state.relax_errors(0, 0.0);
+void PixelNoise::begin_image(State& state) const {
+  if (vibrates()) state.propagate_bias(0, 0.0);
 }
 
-ErrorTerms PixelNoise::vibration(const Eigen::Vector3d& p_camera,
-                                 const Eigen::Matrix<double, 2, 3>& J) const {
+ErrorTerms PixelNoise::attitude_jitter(const Eigen::Vector3d& p_camera,
+                                       const Eigen::Matrix<double, 2, 3>& J) const {
   ErrorTerms terms;
   if (!vibrates()) return terms;
   terms[0].pair = 0;
@@ -39,11 +39,11 @@ ErrorTerms PixelNoise::vibration(const Eigen::Vector3d& p_camera,
   return terms;
 }
 
-double PixelNoise::wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
-                                const Eigen::Vector3d& to) const {
+double PixelNoise::process_noise_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
+                                     const Eigen::Vector3d& to) const {
   const Eigen::Vector3d before = from - p_world, now = to - p_world;
   const double angle_rad = std::atan2(before.cross(now).norm(), before.dot(now));
-  return wander_px_ * wander_px_ * to_degrees(angle_rad);
+  return landmark_noise_px_ * landmark_noise_px_ * to_degrees(angle_rad);
 }
 
 }  // namespace waymark::ekf

@@ -9,8 +9,8 @@
 namespace waymark::ekf {
 
 /// In what ways the pixel of a landmark differs from where the landmark is (docs/camera.md, "What a pixel is
-/// worth"): noise that is new in every sighting, a vibration of the camera that all sightings of one picture
-/// share, and the wandering of a patch, which is an error of the landmark. All functions are O(1).
+/// worth"): noise that is new in every observation, a vibration of the camera that all observations of one
+/// image share, and the wandering of a patch, which is an error of the landmark. All functions are O(1).
 class PixelNoise {
  public:
   explicit PixelNoise(const PixelSlamOptions& options);
@@ -20,25 +20,25 @@ class PixelNoise {
   /// R of a pixel that is to be found, 2x2, px^2: known to the whole pixel.
   [[nodiscard]] const Eigen::Matrix2d& of_search() const { return search_; }
 
-  /// Whether the camera vibrates: the state then holds one pair of lasting errors for it, pair 0.
+  /// Whether the camera vibrates: the state then holds one pair of biases for it, pair 0.
   [[nodiscard]] bool vibrates() const { return vibration_rad_ > 0.0; }
-  /// A new picture: what the camera's pitch and roll were is forgotten. O(n) for a state of n values.
-  void begin_picture(State& state) const;
+  /// A new image: what the camera's pitch and roll were is forgotten. O(n) for a state of n values.
+  void begin_image(State& state) const;
   /// What a vibration about the camera's x and z axis does to the pixel of a point, d(u, v)/d(pair 0).
   /// `p_camera` is the point in the camera frame, up to a factor, J = d(u, v)/d p_camera.
-  [[nodiscard]] ErrorTerms vibration(const Eigen::Vector3d& p_camera,
-                                     const Eigen::Matrix<double, 2, 3>& J) const;
+  [[nodiscard]] ErrorTerms attitude_jitter(const Eigen::Vector3d& p_camera,
+                                           const Eigen::Matrix<double, 2, 3>& J) const;
 
   /// Variance of how far a patch wanders on a point `p_world` while the camera moves between two places,
   /// px^2: it grows with the angle between the two views.
-  [[nodiscard]] double wandered_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
-                                    const Eigen::Vector3d& to) const;
+  [[nodiscard]] double process_noise_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& to) const;
 
  private:
-  Eigen::Matrix2d own_;     ///< of a pixel without covariance
-  Eigen::Matrix2d model_;   ///< of every pixel besides
-  Eigen::Matrix2d search_;  ///< of a pixel that is to be found
-  double wander_px_;        ///< in a turn of the view by 1 deg
+  Eigen::Matrix2d own_;       ///< of a pixel without covariance
+  Eigen::Matrix2d model_;     ///< of every pixel besides
+  Eigen::Matrix2d search_;    ///< of a pixel that is to be found
+  double landmark_noise_px_;  ///< in a turn of the view by 1 deg
   double vibration_rad_;
 };
 

@@ -19,7 +19,7 @@ struct FoundPixel {
   Eigen::Matrix2d R;     ///< px^2
 };
 
-/// Where the landmarks of a map, points and rays, are in the picture, with Jacobians: what a camera with
+/// Where the landmarks of a map, points and rays, are in the image, with Jacobians: what a camera with
 /// PixelNoise makes of them. Everything is O(1) and allocates nothing.
 class PixelPrediction {
  public:
@@ -36,38 +36,42 @@ class PixelPrediction {
 
   /// A found pixel, linearised at the present estimate, Jacobians where the consistency mode wants them.
   /// Nothing where the landmark cannot be seen.
-  [[nodiscard]] std::optional<Sighting> linearize(const PixelMap& map, const FoundPixel& found,
-                                                  const CameraPose& here) const;
+  [[nodiscard]] std::optional<LinearizedObservation> linearize(const PixelMap& map, const FoundPixel& found,
+                                                               const CameraPose& here) const;
   /// The same at what the state proposes; `there` is the camera at the proposed pose.
-  [[nodiscard]] std::optional<Sighting> linearize_at_proposal(const PixelMap& map, const FoundPixel& found,
-                                                              const CameraPose& there) const;
+  [[nodiscard]] std::optional<LinearizedObservation> linearize_at_proposal(const PixelMap& map,
+                                                                           const FoundPixel& found,
+                                                                           const CameraPose& there) const;
 
-  /// A landmark of the map in the picture that is about to be looked at, with S = H P H^T + R; lets it wander
-  /// before. Nothing where it should not be looked for: outside of the picture, or seen from so far away from
+  /// A landmark of the map in the image that is about to be looked at, with S = H P H^T + R; lets it wander
+  /// before. Nothing where it should not be looked for: outside of the image, or seen from so far away from
   /// where it was first seen that it would not be recognised.
   [[nodiscard]] std::optional<Expectation> expect(PixelMap& map, int feature, const CameraPose& here) const;
-  /// Whether a patch around the pixel (u, v) is in the picture.
-  [[nodiscard]] bool is_in_picture(const Eigen::Vector2d& pixel) const;
+  /// Whether a patch around the pixel (u, v) is in the image.
+  [[nodiscard]] bool is_in_image(const Eigen::Vector2d& pixel) const;
 
   /// Where a landmark is in the world, m; a ray that leads behind infinity as far away as points may be.
   [[nodiscard]] Eigen::Vector3d place(const PixelMap& map, int feature) const;
   /// Process noise of a landmark at `p_world`: how far it has wandered across the line of sight since the
   /// camera last looked at it. A patch is no point. Warped as a plane that faces the camera it fits best a
-  /// little beside where it was cut, and the more so the more the view has turned. Pictures from nearly the
+  /// little beside where it was cut, and the more so the more the view has turned. Images from nearly the
   /// same place are off by the same: an error of the landmark, not of the pixel.
-  void let_wander(PixelMap& map, int feature, const Eigen::Vector3d& p_world, const CameraPose& here) const;
+  void add_process_noise(PixelMap& map, int feature, const Eigen::Vector3d& p_world,
+                         const CameraPose& here) const;
 
  private:
-  /// A landmark in the picture. The innovation and R of the sighting are left to who knows the pixel.
-  struct Sight {
-    Sighting sighting;
+  /// A landmark in the image. The innovation and R of the observation are left to who knows the pixel.
+  struct PredictedObservation {
+    LinearizedObservation linearization;
     Eigen::Vector2d predicted;
   };
 
   template <class Values>
-  [[nodiscard]] std::optional<Sight> look(const PixelMap& map, int feature, const CameraPose& from,
-                                          const Values& values) const;
-  [[nodiscard]] std::optional<Sight> sight(const PixelMap& map, int feature, const CameraPose& here) const;
+  [[nodiscard]] std::optional<PredictedObservation> project_feature(const PixelMap& map, int feature,
+                                                                    const CameraPose& from,
+                                                                    const Values& values) const;
+  [[nodiscard]] std::optional<PredictedObservation> predict_feature(const PixelMap& map, int feature,
+                                                                    const CameraPose& here) const;
   [[nodiscard]] bool is_recognisable(const PixelMap& map, int feature, const CameraPose& here) const;
 
   Camera camera_;

@@ -30,32 +30,32 @@ PixelSlam::PixelSlam(const PixelSlamOptions& options, const CameraOptions& camer
       initialiser_(options, map_, prediction_),
       update_(options, map_, prediction_) {
   const auto features = static_cast<std::size_t>(options.capacity);
-  const auto known = features + static_cast<std::size_t>(options.most_candidates);
+  const auto known = features + static_cast<std::size_t>(options.max_candidates);
   expectations_.reserve(known);
   innovations_.reserve(known);
   found_.reserve(features);
   found_in_.reserve(features);
-  prediction_.noise().begin_picture(map_.map().state());
+  prediction_.noise().begin_image(map_.map().state());
 }
 
 void PixelSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_, PixelBlock::kPredict);
-  in_picture_ = false;
+  in_image_ = false;
   if (!is_still(motion) && is_finite(motion)) map_.map().state().predict(motion);  // Vincke Algorithm 1
   timer.finish(PixelBlock::kPredict);
 }
 
-void PixelSlam::begin_picture() {
-  in_picture_ = true;
-  map_.begin_picture();
-  prediction_.noise().begin_picture(map_.map().state());
-  initialiser_.begin_picture();
+void PixelSlam::begin_image() {
+  in_image_ = true;
+  map_.begin_image();
+  prediction_.noise().begin_image(map_.map().state());
+  initialiser_.begin_image();
   map_.retire();
 }
 
 std::span<const Expectation> PixelSlam::expect() {
   BlockTimer timer(blocks_, PixelBlock::kProject);
-  begin_picture();
+  begin_image();
   expectations_.clear();
   const CameraPose here = prediction_.camera_pose(map());
   for (int i = 0; i < static_cast<int>(map().features().size()); ++i)
@@ -71,11 +71,11 @@ const Correction& PixelSlam::correct(std::span<const Observation> observations,
                                      std::span<const LandmarkId> missed) {
   miss(missed);
   BlockTimer timer(blocks_, PixelBlock::kJacobians);
-  if (!in_picture_) begin_picture();
+  if (!in_image_) begin_image();
   identify(observations);
   timer.finish(PixelBlock::kJacobians);
   update(observations);  // Vincke Algorithm 1
-  settle_rays();
+  convert_rays();
   timer.finish(PixelBlock::kEstimate);
   weigh_candidates(observations);  // Vincke Algorithm 1
   timer.finish(PixelBlock::kWeights);
@@ -133,7 +133,7 @@ void PixelSlam::update(std::span<const Observation> observations) {
 }
 
 /// Those that were just seen.
-void PixelSlam::settle_rays() {
+void PixelSlam::convert_rays() {
   const Eigen::Vector3d here = prediction_.camera_pose(map()).p_world_camera;
   for (const Innovation& innovation : innovations_) {
     if (innovation.outcome != Outcome::kMatched) continue;

@@ -32,12 +32,12 @@ class PixelSlam final : public Filter {
   [[nodiscard]] Result<void> load(const MapState& map) { return map_.load(map); }
 
   void predict(const Motion& motion) override;
-  /// Landmarks and candidates that should be in the picture, at the present pose. Begins a picture: call it
-  /// once per picture. Valid until the next call of anything that changes the filter.
+  /// Landmarks and candidates that should be in the image, at the present pose. Begins an image: call it
+  /// once per image. Valid until the next call of anything that changes the filter.
   [[nodiscard]] std::span<const Expectation> expect();
   /// Pixels that were found, and who was looked for where it was expected and not found; may be called
-  /// several times per picture. Correction::removed names those (landmarks and candidates) that nobody needs
-  /// to look for any more since the picture began.
+  /// several times per image. Correction::removed names those (landmarks and candidates) that nobody needs
+  /// to look for any more since the image began.
   const Correction& correct(std::span<const Observation> found, std::span<const LandmarkId> missed);
   const Correction& correct(std::span<const Observation> observations) override {
     return correct(observations, {});
@@ -51,12 +51,12 @@ class PixelSlam final : public Filter {
   [[nodiscard]] int candidates() const { return initialiser_.size(); }
 
  private:
-  void begin_picture();
+  void begin_image();
   void miss(std::span<const LandmarkId> landmarks);
   void identify(std::span<const Observation> observations);
   [[nodiscard]] Outcome what_is(std::size_t index) const;
   void update(std::span<const Observation> observations);
-  void settle_rays();
+  void convert_rays();
   void weigh_candidates(std::span<const Observation> observations);
   void accept(Innovation& innovation, const Eigen::Vector2d& z_px, const Eigen::Matrix2d& R);
   void begin_candidates(std::span<const Observation> observations);
@@ -65,7 +65,7 @@ class PixelSlam final : public Filter {
   ekf::BoundedMap map_;
   ekf::DepthInitialiser initialiser_;
   ekf::PixelUpdate update_;
-  bool in_picture_ = false;
+  bool in_image_ = false;
 
   std::vector<Expectation> expectations_;
   std::vector<Innovation> innovations_;

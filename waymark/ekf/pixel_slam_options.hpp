@@ -26,15 +26,15 @@ enum class UpdateMethod {
 struct PixelSlamOptions {
   int capacity = 100;                ///< most landmarks in the map
   double sigma_px = 0.5;             ///< of pixels that came without covariance
-  double model_sigma_px = 0.1;       ///< what every pixel is off besides, anew in every picture
-  double wander_px = 0.1;            ///< how far a patch wanders while the view of it turns by 1 deg
-  double vibration_deg = 0.05;       ///< of the camera's pitch and roll, anew in every picture
-  double gate_probability = 0.9999;  ///< part of the true sightings that may pass
+  double model_sigma_px = 0.1;       ///< what every pixel is off besides, anew in every image
+  double landmark_noise_px = 0.1;    ///< how far a patch wanders while the view of it turns by 1 deg
+  double jitter_deg = 0.05;          ///< of the camera's pitch and roll, anew in every image
+  double gate_probability = 0.9999;  ///< part of the true observations that may pass
   ekf::Initialization init = ekf::Initialization::kDelayed;
   ekf::DepthPrior depth;
-  int most_candidates = 8;
-  int least_pictures = 8;    ///< in which a candidate is seen before it is accepted at all
-  int most_pictures = 15;    ///< in which a candidate is seen before it is accepted without depth
+  int max_candidates = 8;
+  int min_images = 8;        ///< in which a candidate is seen before it is accepted at all
+  int max_images = 15;       ///< in which a candidate is seen before it is accepted without depth
   double depth_ratio = 0.3;  ///< sigma of the depth over the depth at which a candidate is accepted
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   ekf::Eviction evict = ekf::Eviction::kInformation;

@@ -10,15 +10,15 @@ PixelUpdate::PixelUpdate(const PixelSlamOptions& options, BoundedMap& map, const
       prediction_(prediction),
       gate_(chi2_quantile(options.gate_probability, 2)),
       gates_alone_(options.update == UpdateMethod::kTextbook),
-      consensus_(State::kMaxSightings, gate_,
+      consensus_(State::kMaxObservations, gate_,
                  prediction.camera().width_px() * prediction.camera().height_px()),
       update_(options, prediction) {
   innovations_.reserve(static_cast<std::size_t>(options.capacity));
-  block_.reserve(State::kMaxSightings);
-  sightings_.reserve(State::kMaxSightings);
-  nus_.reserve(State::kMaxSightings);
-  told_.reserve(State::kMaxSightings);
-  used_.reserve(State::kMaxSightings);
+  block_.reserve(State::kMaxObservations);
+  linearizations_.reserve(State::kMaxObservations);
+  nus_.reserve(State::kMaxObservations);
+  pose_observations_.reserve(State::kMaxObservations);
+  used_.reserve(State::kMaxObservations);
   if (gates_alone_) map.map().state().use_textbook_update();
 }
 
@@ -40,7 +40,7 @@ std::optional<Innovation> PixelUpdate::confirm(const FoundPixel& found) {
   if (!compared) return std::nullopt;
   const Innovation confirmed = innovation(found, *compared);
   update_.clear();
-  update_.add(found, compared->sighting);
+  update_.add(found, compared->linearization);
   static_cast<void>(update_.apply(map_.map()));
   return confirmed;
 }
@@ -48,12 +48,12 @@ std::optional<Innovation> PixelUpdate::confirm(const FoundPixel& found) {
 /// Nothing where it cannot be used.
 std::optional<PixelUpdate::Compared> PixelUpdate::compare(const FoundPixel& found,
                                                           const CameraPose& here) const {
-  const auto sighting = prediction_.linearize(map_.map(), found, here);
-  if (!sighting) return std::nullopt;
-  const Eigen::Matrix2d S = map_.map().state().innovation_covariance(*sighting);
-  const auto nis = mahalanobis_squared<2>(sighting->nu, S);
+  const auto linearization = prediction_.linearize(map_.map(), found, here);
+  if (!linearization) return std::nullopt;
+  const Eigen::Matrix2d S = map_.map().state().innovation_covariance(*linearization);
+  const auto nis = mahalanobis_squared<2>(linearization->nu, S);
   if (!nis) return std::nullopt;
-  return Compared{*sighting, S, *nis};
+  return Compared{*linearization, S, *nis};
 }
 
 Innovation PixelUpdate::innovation(const FoundPixel& found, const Compared& compared) const {
@@ -68,25 +68,25 @@ Innovation PixelUpdate::innovation(const FoundPixel& found, const Compared& comp
 /// Makes a block of the pixels from the first one on, all at the present estimate. The one behind its last.
 std::size_t PixelUpdate::collect(std::span<const FoundPixel> found, std::size_t first) {
   block_.clear();
-  sightings_.clear();
+  linearizations_.clear();
   nus_.clear();
-  told_.clear();
+  pose_observations_.clear();
   const State& state = map_.map().state();
   const CameraPose here = prediction_.camera_pose(map_.map());
   std::size_t next = first;
-  for (; next < found.size() && block_.size() < State::kMaxSightings; ++next) {
+  for (; next < found.size() && block_.size() < State::kMaxObservations; ++next) {
     const auto compared = compare(found[next], here);
     if (!compared) {
       innovations_[next].landmark = map_.map().feature(found[next].feature).id;
       continue;
     }
-    const Sighting& sighting = compared->sighting;
+    const LinearizedObservation& linearization = compared->linearization;
     innovations_[next] = innovation(found[next], *compared);
     block_.push_back(next);
-    sightings_.push_back(sighting);
-    nus_.push_back(sighting.nu);
-    told_.push_back(
-        {state.pose().covariance, state.pose_correlation(sighting), compared->S, sighting.H_pose});
+    linearizations_.push_back(linearization);
+    nus_.push_back(linearization.nu);
+    pose_observations_.push_back(
+        {state.pose().covariance, state.pose_correlation(linearization), compared->S, linearization.H_pose});
   }
   return next;
 }
@@ -98,7 +98,8 @@ void PixelUpdate::judge() {
       if (innovations_[i].nis > gate_) innovations_[i].outcome = Outcome::kGated;
     return;
   }
-  const auto outcomes = consensus_.judge(map_.map().state().joint_innovation_covariance(sightings_), nus_);
+  const auto outcomes =
+      consensus_.judge(map_.map().state().joint_innovation_covariance(linearizations_), nus_);
   for (std::size_t k = 0; k < block_.size(); ++k) innovations_[block_[k]].outcome = outcomes[k];
 }
 
@@ -107,7 +108,7 @@ void PixelUpdate::update_matched(std::span<const FoundPixel> found) {
   used_.clear();
   for (std::size_t k = 0; k < block_.size(); ++k) {
     if (innovations_[block_[k]].outcome != Outcome::kMatched) continue;
-    update_.add(found[block_[k]], sightings_[k]);
+    update_.add(found[block_[k]], linearizations_[k]);
     used_.push_back(block_[k]);
   }
   apply();
@@ -123,7 +124,7 @@ void PixelUpdate::rescue(std::span<const FoundPixel> found) {
     const auto compared = compare(found[i], here);
     if (!compared || !consensus_.rescues(compared->nis, compared->S)) continue;
     innovations_[i].outcome = Outcome::kMatched;
-    update_.add(found[i], compared->sighting);
+    update_.add(found[i], compared->linearization);
     used_.push_back(i);
   }
   apply();
@@ -139,7 +140,7 @@ void PixelUpdate::note_usefulness(std::span<const FoundPixel> found) {
     const int feature = found[block_[k]].feature;
     const Outcome outcome = innovations_[block_[k]].outcome;
     if (outcome == Outcome::kMatched)
-      map_.matched(feature, told_[k]);
+      map_.matched(feature, pose_observations_[k]);
     else if (outcome == Outcome::kGated)
       map_.missed(feature);
   }

@@ -17,7 +17,7 @@
 namespace waymark::ekf {
 
 /// The update of the state with the pixels in which landmarks were found, in blocks of at most
-/// State::kMaxSightings, each linearised at what the earlier ones found: first those of a block that agree
+/// State::kMaxObservations, each linearised at what the earlier ones found: first those of a block that agree
 /// (Consensus), then those that fit where these have led. With UpdateMethod::kTextbook each is gated by
 /// itself, as in the article. Takes its memory once.
 class PixelUpdate {
@@ -35,7 +35,7 @@ class PixelUpdate {
  private:
   /// A pixel at the present estimate.
   struct Compared {
-    Sighting sighting;
+    LinearizedObservation linearization;
     Eigen::Matrix2d S;
     double nis;
   };
@@ -57,11 +57,11 @@ class PixelUpdate {
   IteratedPixelUpdate update_;
   std::vector<Innovation> innovations_;
 
-  // One per sighting of the block:
+  // One per observation of the block:
   std::vector<std::size_t> block_;  ///< which pixel it is
-  std::vector<Sighting> sightings_;
+  std::vector<LinearizedObservation> linearizations_;
   std::vector<Eigen::Vector2d> nus_;
-  std::vector<PoseSighting> told_;  ///< what it told about the pose
+  std::vector<PoseObservation> pose_observations_;  ///< what it told about the pose
 
   std::vector<std::size_t> used_;  ///< the pixels that are in update_
 };

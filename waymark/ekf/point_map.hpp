@@ -23,7 +23,7 @@ namespace waymark::ekf {
 /// the same when landmarks are removed and indices change.
 class PointMap {
  public:
-  /// The state has `error_pairs` pairs of lasting errors; `threads` share updates of large maps.
+  /// The state has `error_pairs` pairs of biases; `threads` share updates of large maps.
   PointMap(const EkfOptions& options, int error_pairs, int threads);
 
   [[nodiscard]] CompressedState& state() { return state_; }
@@ -40,7 +40,7 @@ class PointMap {
   [[nodiscard]] MapState save() const;
 
   /// Appends a point that was seen from the robot, so that it turns with it: position in the world,
-  /// covariance of what the observation adds (m^2), and how lasting errors are in it. Returns its index.
+  /// covariance of what the observation adds (m^2), and how biases are in it. Returns its index.
   /// There must be room. O(n).
   int append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const ErrorTerms& errors,
              const LandmarkRecord& record);

@@ -27,14 +27,14 @@ Eigen::Matrix2d noise_of(const Observation& observation) {
 
 /// z - h at one point, Jacobians at another.
 template <ObservationModel Model>
-Sighting linearize_as(const typename Model::Value& z, const Linearization<Model::kDim>& expected,
-                      const Linearization<Model::kDim>& jacobians) {
-  Sighting sighting;
-  sighting.rows = Model::kDim;
-  sighting.nu.head<Model::kDim>() = Model::innovation(z, expected.predicted);  // Vincke (10)
-  sighting.H_pose.topRows<Model::kDim>() = jacobians.H_pose;
-  sighting.H_landmark.topLeftCorner<Model::kDim, 2>() = jacobians.H_landmark;
-  return sighting;
+LinearizedObservation linearize_as(const typename Model::Value& z, const Linearization<Model::kDim>& expected,
+                                   const Linearization<Model::kDim>& jacobians) {
+  LinearizedObservation linearization;
+  linearization.rows = Model::kDim;
+  linearization.nu.head<Model::kDim>() = Model::innovation(z, expected.predicted);  // Vincke (10)
+  linearization.H_pose.topRows<Model::kDim>() = jacobians.H_pose;
+  linearization.H_landmark.topLeftCorner<Model::kDim, 2>() = jacobians.H_landmark;
+  return linearization;
 }
 
 }  // namespace
@@ -44,9 +44,9 @@ bool is_usable(const Observation& observation) {
          has_finite_numbers(observation.value);
 }
 
-std::optional<Sighting> linearize(const Measurement& z, const View& here, const View& at,
-                                  const Pose2& T_robot_sensor) {
-  const auto distance_m = [&](const View& view) {
+std::optional<LinearizedObservation> linearize(const Measurement& z, const LinearizationPoint& here,
+                                               const LinearizationPoint& at, const Pose2& T_robot_sensor) {
+  const auto distance_m = [&](const LinearizationPoint& view) {
     return (view.p_world - view.T_world_robot * T_robot_sensor.position()).norm();
   };
   const bool is_same = here.T_world_robot == at.T_world_robot && here.p_world == at.p_world;
@@ -63,36 +63,36 @@ std::optional<Sighting> linearize(const Measurement& z, const View& here, const 
   return as(RangeBearingModel{}, std::get<RangeBearing>(z));
 }
 
-std::optional<Sighting> PointObservation::linearize(int landmark, LandmarkId id,
-                                                    const Observation& observation) const {
-  const View here{state_.pose().T_world_robot, state_.landmark(landmark).head<2>()};
-  const View at{state_.linearization_pose(), state_.linearization_landmark(landmark).head<2>()};
-  auto sighting = ekf::linearize(observation.value, here, at, T_robot_sensor_);
-  if (!sighting) return std::nullopt;
+std::optional<LinearizedObservation> PointObservation::linearize(int landmark, LandmarkId id,
+                                                                 const Observation& observation) const {
+  const LinearizationPoint here{state_.pose().T_world_robot, state_.landmark(landmark).head<2>()};
+  const LinearizationPoint at{state_.linearization_pose(), state_.linearization_landmark(landmark).head<2>()};
+  auto linearization = ekf::linearize(observation.value, here, at, T_robot_sensor_);
+  if (!linearization) return std::nullopt;
   const double range_m = (here.p_world - here.T_world_robot.position()).norm();
-  const SightingError error = error_of(id, range_m, observation.value);
-  sighting->landmark = landmark;
-  sighting->errors = error.terms;
-  sighting->nu -= state_.expected(error.terms);
-  sighting->R = noise_of(observation) + error.unmodelled;
-  return sighting;
+  const ObservationBias error = error_of(id, range_m, observation.value);
+  linearization->landmark = landmark;
+  linearization->errors = error.terms;
+  linearization->nu -= state_.expected(error.terms);
+  linearization->R = noise_of(observation) + error.unmodelled;
+  return linearization;
 }
 
-std::optional<Sighting> PointObservation::linearize_at_proposal(const Sighting& before,
-                                                                const Measurement& z) const {
-  const View there{state_.proposed_pose(), state_.proposed_landmark(before.landmark).head<2>()};
-  auto sighting = ekf::linearize(z, there, there, T_robot_sensor_);
-  if (!sighting) return std::nullopt;
-  sighting->landmark = before.landmark;
-  sighting->errors = before.errors;
-  sighting->nu -= state_.proposed_expected(before.errors);
-  sighting->R = before.R;
-  return sighting;
+std::optional<LinearizedObservation> PointObservation::linearize_at_proposal(
+    const LinearizedObservation& before, const Measurement& z) const {
+  const LinearizationPoint there{state_.proposed_pose(), state_.proposed_landmark(before.landmark).head<2>()};
+  auto linearization = ekf::linearize(z, there, there, T_robot_sensor_);
+  if (!linearization) return std::nullopt;
+  linearization->landmark = before.landmark;
+  linearization->errors = before.errors;
+  linearization->nu -= state_.proposed_expected(before.errors);
+  linearization->R = before.R;
+  return linearization;
 }
 
 LocatedPoint PointObservation::locate(LandmarkId id, const Observation& observation) const {
   const auto& z = std::get<RangeBearing>(observation.value);
-  SightingError error = errors_.of(id, z.range_m);
+  ObservationBias error = errors_.of(id, z.range_m);
   const Eigen::Vector2d expected_error = state_.expected(error.terms);
   const auto inverse = RangeBearingModel::locate(
       state_.pose().T_world_robot, T_robot_sensor_,
@@ -102,8 +102,8 @@ LocatedPoint PointObservation::locate(LandmarkId id, const Observation& observat
   return {inverse.p_world, G * (*observation.covariance + error.unmodelled) * G.transpose(), error.terms};
 }
 
-SightingError PointObservation::error_of(LandmarkId id, double range_m, const Measurement& z) const {
-  SightingError error = errors_.of(id, range_m);
+ObservationBias PointObservation::error_of(LandmarkId id, double range_m, const Measurement& z) const {
+  ObservationBias error = errors_.of(id, range_m);
   if (std::holds_alternative<RangeBearing>(z)) return error;
   const int row = std::holds_alternative<Bearing>(z) ? 1 : 0;
   for (ErrorTerm& term : error.terms) {

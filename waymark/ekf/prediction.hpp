@@ -18,7 +18,7 @@ class Prediction {
   [[nodiscard]] const Pose2& pose() const { return after_; }
   /// P <- F P F^T + G Q G^T: P_rr at once, P_rm when it is next needed. O(1).
   void apply(Covariance& P, const Eigen::Matrix3d& Q) const;
-  /// Where the increment depends on lasting errors e as `errors` say, d(increment)/de: what these have in
+  /// Where the increment depends on biases e as `errors` say, d(increment)/de: what these have in
   /// common with the state becomes the robot's as well. After apply(). O(n).
   void spread(Covariance& P, const ErrorTerms& errors) const;
 

@@ -18,12 +18,13 @@ Eigen::Vector2d Proposal::expected(const ErrorTerms& terms) const {
   return before_.expected(terms) + error_part(dx_, terms);
 }
 
-Eigen::Vector2d Proposal::explained(const Sighting& sighting) const {
-  Eigen::Vector2d sum = sighting.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
-                        sighting.H_landmark * increment(sighting.landmark);
-  if (sighting.anchor >= 0) sum += sighting.H_anchor * increment(sighting.anchor);
-  if (sighting.second_anchor >= 0) sum += sighting.H_second_anchor * increment(sighting.second_anchor);
-  return sum + error_part(dx_, sighting.errors);
+Eigen::Vector2d Proposal::explained(const LinearizedObservation& linearization) const {
+  Eigen::Vector2d sum = linearization.H_pose * Eigen::Vector3d(dx_[0], dx_[1], dx_[2]) +
+                        linearization.H_landmark * increment(linearization.landmark);
+  if (linearization.anchor >= 0) sum += linearization.H_anchor * increment(linearization.anchor);
+  if (linearization.second_anchor >= 0)
+    sum += linearization.H_second_anchor * increment(linearization.second_anchor);
+  return sum + error_part(dx_, linearization.errors);
 }
 
 /// What turning the increment dq of a point adds to the heading's column.
@@ -34,16 +35,17 @@ Eigen::Vector2d Proposal::turned(const Eigen::Matrix<double, 2, 3>& H, const Eig
 /// In the invariant filter the heading's column is taken about where the points stood, so that H leaves
 /// turning everything unseen as it did before: what the step of Gauss and Newton would be with the exact
 /// derivative of the increments would, over and over, learn a heading that nobody saw.
-Sighting Proposal::moved_back(const Sighting& sighting) const {
-  Sighting back = sighting;
+LinearizedObservation Proposal::relinearized_to_prior(const LinearizedObservation& linearization) const {
+  LinearizedObservation back = linearization;
   if (retraction_.turns()) {
     auto heading = back.H_pose.col(2);
-    heading += turned(sighting.H_pose, {dx_[0], dx_[1]});
-    if (!before_.is_relative(sighting.landmark))
-      heading += turned(sighting.H_landmark, increment(sighting.landmark).head<2>());
-    if (sighting.anchor >= 0) heading += turned(sighting.H_anchor, increment(sighting.anchor).head<2>());
-    if (sighting.second_anchor >= 0)
-      heading += turned(sighting.H_second_anchor, increment(sighting.second_anchor).head<2>());
+    heading += turned(linearization.H_pose, {dx_[0], dx_[1]});
+    if (!before_.is_relative(linearization.landmark))
+      heading += turned(linearization.H_landmark, increment(linearization.landmark).head<2>());
+    if (linearization.anchor >= 0)
+      heading += turned(linearization.H_anchor, increment(linearization.anchor).head<2>());
+    if (linearization.second_anchor >= 0)
+      heading += turned(linearization.H_second_anchor, increment(linearization.second_anchor).head<2>());
   }
   back.nu += explained(back);
   return back;

@@ -5,7 +5,7 @@
 #include "waymark/core/pose2.hpp"
 #include "waymark/ekf/belief.hpp"
 #include "waymark/ekf/consistency.hpp"
-#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/linearized_observation.hpp"
 
 namespace waymark::ekf {
 
@@ -20,12 +20,12 @@ class Proposal {
   [[nodiscard]] Pose2 pose() const;
   [[nodiscard]] Eigen::Vector3d landmark(int index) const;
   [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const;
-  /// H dx: what the proposal explains of a sighting's innovation, if all were linear.
-  [[nodiscard]] Eigen::Vector2d explained(const Sighting& sighting) const;
-  /// A sighting that was linearised at what is proposed (nu = z - h there, ordinary Jacobians), as one of the
-  /// state as it still is: the step of Gauss and Newton, nu + H dx, with H to the increments dx that the
+  /// H dx: what the proposal explains of an observation's innovation, if all were linear.
+  [[nodiscard]] Eigen::Vector2d explained(const LinearizedObservation& linearization) const;
+  /// An observation that was linearised at what is proposed (nu = z - h there, ordinary Jacobians), as one of
+  /// the state as it still is: the step of Gauss and Newton, nu + H dx, with H to the increments dx that the
   /// state is moved by.
-  [[nodiscard]] Sighting moved_back(const Sighting& sighting) const;
+  [[nodiscard]] LinearizedObservation relinearized_to_prior(const LinearizedObservation& linearization) const;
 
  private:
   [[nodiscard]] Eigen::Vector3d increment(int landmark) const {

@@ -31,7 +31,7 @@ void Shear::turn(double* dx, const StateLayout& layout, std::span<const char> re
 void Shear::prepare(const Covariance& P, const double* W, std::size_t ld, std::size_t D) {
   const std::size_t n = P.size();
   kernels::gather_rows(P.data(), P.stride(), n, 2, 1, e_.data(), P.stride());
-  std::array<double, Update::kMostRows> w_heading;
+  std::array<double, Update::kMaxRows> w_heading;
   for (std::size_t k = 0; k < D; ++k) w_heading[k] = -W[k * ld + 2];
   kernels::add_scaled_rows(e_.data(), W, ld, D, w_heading.data(), n);
   const double half_c_theta = 0.5 * e_[2];

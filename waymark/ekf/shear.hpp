@@ -11,7 +11,7 @@ namespace waymark::ekf {
 
 /// How the ground turns with a correction of the heading by a, in ordinary coordinates (Barrau and Bonnabel
 /// 2015): the increment dq of each of its points becomes V(a) dq, and the covariance is sheared,
-/// P <- (I + d e_theta^T) P (I + d e_theta^T)^T, along d = J V(a) dq. Lasting errors, heights and what is
+/// P <- (I + d e_theta^T) P (I + d e_theta^T)^T, along d = J V(a) dq. Biases, heights and what is
 /// relative stay: zeros in d.
 class Shear {
  public:

@@ -34,7 +34,7 @@ void State::load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref
 }
 
 void State::place_robot(const PoseEstimate& pose) {
-  join_robot_rows();
+  propagate_cross_covariance();
   write_pose(pose.T_world_robot);
   for (std::size_t i = 0; i < 3; ++i) {
     std::fill(P_.row(i) + 3, P_.row(i) + size(), 0.0);
@@ -50,7 +50,7 @@ void State::predict(const Motion& motion, const ErrorTerms& errors) {
   if (std::ranges::any_of(errors, &ErrorTerm::takes_part)) prediction.spread(P_, errors);
 }
 
-void State::relax_errors(int pair, double rho) {
+void State::propagate_bias(int pair, double rho) {
   const std::size_t first = error_offset(pair);
   for (std::size_t e = first; e < first + 2; ++e) {
     for (std::size_t i = 0; i < e; ++i) P_.row(i)[e] *= rho;
@@ -60,16 +60,16 @@ void State::relax_errors(int pair, double rho) {
   }
 }
 
-bool State::update(std::span<const Sighting> sightings) {
-  if (!propose(sightings)) return false;
-  if (!sightings.empty()) accept();
+bool State::update(std::span<const LinearizedObservation> linearizations) {
+  if (!propose(linearizations)) return false;
+  if (!linearizations.empty()) accept();
   return true;
 }
 
-bool State::propose(std::span<const Sighting> sightings) {
-  if (sightings.empty()) return true;
-  join_robot_rows();
-  return update_.propose(P_, layout_, sightings);
+bool State::propose(std::span<const LinearizedObservation> linearizations) {
+  if (linearizations.empty()) return true;
+  propagate_cross_covariance();
+  return update_.propose(P_, layout_, linearizations);
 }
 
 void State::accept() {
@@ -97,20 +97,20 @@ void State::hold_landmarks() {
   update_.consider_all_from(layout_.head);
 }
 
-JointCovariance State::joint_innovation_covariance(std::span<const Sighting> sightings) {
-  join_robot_rows();
-  return update_.joint_innovation_covariance(P_, layout_, sightings);
+JointCovariance State::joint_innovation_covariance(std::span<const LinearizedObservation> linearizations) {
+  propagate_cross_covariance();
+  return update_.joint_innovation_covariance(P_, layout_, linearizations);
 }
 
 int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
                const ErrorTerms& errors) {
-  join_robot_rows();
+  propagate_cross_covariance();
   return insert(position, position, P_.derive(Touched(G_pose.topRows(dimension()), errors), noise));
 }
 
 int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const NewRows& rows) {
   assert(landmarks() < capacity());
-  join_robot_rows();
+  propagate_cross_covariance();
   const int index = layout_.landmarks++;
   std::copy_n(position.data(), dimension(), &x_[offset(index)]);
   std::copy_n(first.data(), dimension(), &first_[offset(index)]);
@@ -133,7 +133,7 @@ int State::add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& no
 
 void State::make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
                           const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark) {
-  join_robot_rows();
+  propagate_cross_covariance();
   Touched G(Eigen::Matrix3d::Zero(), {}, 6);
   G.set_landmark(G.head, offset(landmark), 3, G_landmark);
   G.set_landmark(G.head + 3, offset(anchor), 3, G_anchor);
@@ -143,7 +143,7 @@ void State::make_absolute(int landmark, int anchor, const Eigen::Vector3d& posit
   relative_[static_cast<std::size_t>(landmark)] = 0;
 }
 
-void State::loosen(int index, const Eigen::Matrix3d& covariance) {
+void State::inflate(int index, const Eigen::Matrix3d& covariance) {
   const std::size_t at = offset(index);
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension()); ++a)
     for (std::size_t b = a; b < static_cast<std::size_t>(dimension()); ++b)
@@ -152,7 +152,7 @@ void State::loosen(int index, const Eigen::Matrix3d& covariance) {
 
 void State::remove(int index) {
   assert(index >= 0 && index < landmarks());
-  join_robot_rows();
+  propagate_cross_covariance();
   const auto d = static_cast<std::size_t>(dimension());
   const int last = layout_.landmarks - 1;
   P_.remove(offset(index), d);

@@ -12,12 +12,12 @@
 
 namespace waymark::ekf {
 
-/// The state vector (x, y, theta, lasting errors, landmark 1, landmark 2, ...) with its covariance, and the
+/// The state vector (x, y, theta, biases, landmark 1, landmark 2, ...) with its covariance, and the
 /// only code that writes either. Landmarks are 2-D or 3-D; in a 3-D state what stands in the place of a
 /// landmark may as well be a pose that the robot once had, or be relative to such a pose. Memory for
 /// `capacity` landmarks is taken once; nothing here allocates later.
 ///
-/// Lasting errors are what successive sightings have in common that is neither the robot's nor the map's
+/// Biases are what successive observations have in common that is neither the robot's nor the map's
 /// doing. They come in pairs of independent unit variance at most; what a pair stands for, and how large it
 /// is, is for those who use it to say (ErrorTerm::J).
 ///
@@ -28,32 +28,32 @@ class State : public Belief {
   State(int dimension, int capacity, Consistency consistency, int threads = 1, int error_pairs = 0);
 
   [[nodiscard]] int capacity() const { return static_cast<int>(relative_.size()); }
-  /// Most sightings that one update() takes.
-  static constexpr int kMaxSightings = Update::kMostSightings;
+  /// Most observations that one update() takes.
+  static constexpr int kMaxObservations = Update::kManyObservations;
 
   /// Starts from a mean and covariance of (x, y, theta, landmarks) as mean() and covariance() give them; only
-  /// before anything was added. The lasting errors stay what they are, independent of all that.
+  /// before anything was added. The biases stay what they are, independent of all that.
   void load(const Eigen::Ref<const Eigen::VectorXd>& mean, const Eigen::Ref<const Eigen::MatrixXd>& P);
 
   /// Puts the robot somewhere else: a belief in its pose that is independent of everything.
   void place_robot(const PoseEstimate& pose);
 
   /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed. Where
-  /// `errors` say how the motion's increment depends on lasting errors, d(x, y, theta)/derrors, P_rm is
+  /// `errors` say how the motion's increment depends on biases, d(x, y, theta)/derrors, P_rm is
   /// brought up to date now: O(n).
   void predict(const Motion& motion, const ErrorTerms& errors = {});
 
-  /// Lets a pair of lasting errors drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has
+  /// Lets a pair of biases drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has
   /// unit variance. O(n).
-  void relax_errors(int pair, double rho);
+  void propagate_bias(int pair, double rho);
 
-  /// Exact update with all sightings at once: at most kMaxSightings. False, and nothing changed, if S is not
-  /// positive definite.
-  [[nodiscard]] bool update(std::span<const Sighting> sightings);
+  /// Exact update with all observations at once: at most kMaxObservations. False, and nothing changed, if S
+  /// is not positive definite.
+  [[nodiscard]] bool update(std::span<const LinearizedObservation> linearizations);
 
   /// The same in two steps: propose() finds where to go, which proposal() says, and accept() goes there. What
   /// is proposed is dropped by any other change.
-  [[nodiscard]] bool propose(std::span<const Sighting> sightings);
+  [[nodiscard]] bool propose(std::span<const LinearizedObservation> linearizations);
   [[nodiscard]] Proposal proposal() const { return {*this, update_.dx()}; }
   void accept();
   /// What accept() did; nothing else may have happened since.
@@ -68,9 +68,10 @@ class State : public Belief {
   void hold_landmarks();
 
   using JointCovariance = ekf::JointCovariance;
-  /// S of all these sightings together, lower triangle, and its size: for those who ask which of them agree.
-  /// Drops what was proposed. A view, good until the next call that changes or proposes anything.
-  [[nodiscard]] JointCovariance joint_innovation_covariance(std::span<const Sighting> sightings);
+  /// S of all these observations together, lower triangle, and its size: for those who ask which of them
+  /// agree. Drops what was proposed. A view, good until the next call that changes or proposes anything.
+  [[nodiscard]] JointCovariance joint_innovation_covariance(
+      std::span<const LinearizedObservation> linearizations);
 
   /// Appends a landmark at `position` = g(pose, z): G_pose is dg/d(x, y, theta), `noise` is G_z R G_z^T; only
   /// their leading `dimension()` rows count; `errors` as dg/derrors. Returns its index. The map must not be
@@ -97,15 +98,15 @@ class State : public Belief {
                      const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark);
 
   /// Makes a landmark less sure by itself: adds to its own covariance. O(1).
-  void loosen(int index, const Eigen::Matrix3d& covariance);
+  void inflate(int index, const Eigen::Matrix3d& covariance);
 
   /// Marginalises a landmark out; the last one takes its index.
   void remove(int index);
 
   /// What motions left to do for the robot's rows of the covariance, done now: see Covariance. Every
   /// operation that needs it does it by itself.
-  Eigen::Vector2d join_robot_rows() { return P_.join_robot_rows(); }
-  [[nodiscard]] const Eigen::Vector2d& pending() const { return P_.pending(); }
+  Eigen::Vector2d propagate_cross_covariance() { return P_.propagate_cross_covariance(); }
+  [[nodiscard]] const Eigen::Vector2d& deferred() const { return P_.deferred(); }
 
   // proposal(), question by question.
   [[nodiscard]] Pose2 proposed_pose() const { return proposal().pose(); }
@@ -113,11 +114,12 @@ class State : public Belief {
   [[nodiscard]] Eigen::Vector2d proposed_expected(const ErrorTerms& terms) const {
     return proposal().expected(terms);
   }
-  [[nodiscard]] Eigen::Vector2d explained(const Sighting& sighting) const {
-    return proposal().explained(sighting);
+  [[nodiscard]] Eigen::Vector2d explained(const LinearizedObservation& linearization) const {
+    return proposal().explained(linearization);
   }
-  [[nodiscard]] Sighting moved_back(const Sighting& sighting) const {
-    return proposal().moved_back(sighting);
+  [[nodiscard]] LinearizedObservation relinearized_to_prior(
+      const LinearizedObservation& linearization) const {
+    return proposal().relinearized_to_prior(linearization);
   }
 
  private:

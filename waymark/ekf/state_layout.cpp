@@ -2,18 +2,18 @@
 
 namespace waymark::ekf {
 
-Touched StateLayout::touched(const Sighting& sighting, int rows) const {
-  const int points = 1 + (sighting.anchor >= 0 ? 1 : 0) + (sighting.second_anchor >= 0 ? 1 : 0);
-  Touched t(sighting.H_pose.topRows(rows), sighting.errors, points * dimension);
+Touched StateLayout::touched(const LinearizedObservation& linearization, int rows) const {
+  const int points = 1 + (linearization.anchor >= 0 ? 1 : 0) + (linearization.second_anchor >= 0 ? 1 : 0);
+  Touched t(linearization.H_pose.topRows(rows), linearization.errors, points * dimension);
   int column = t.head;
   const auto touch = [&](int index, const Eigen::Matrix<double, 2, 3>& H) {
     if (index < 0) return;
     t.set_landmark(column, offset(index), dimension, H);
     column += dimension;
   };
-  touch(sighting.landmark, sighting.H_landmark);
-  touch(sighting.anchor, sighting.H_anchor);
-  touch(sighting.second_anchor, sighting.H_second_anchor);
+  touch(linearization.landmark, linearization.H_landmark);
+  touch(linearization.anchor, linearization.H_anchor);
+  touch(linearization.second_anchor, linearization.H_second_anchor);
   return t;
 }
 

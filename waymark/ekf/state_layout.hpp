@@ -5,16 +5,16 @@
 #include <Eigen/Core>
 
 #include "waymark/core/pose2.hpp"
-#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/linearized_observation.hpp"
 #include "waymark/ekf/touched.hpp"
 
 namespace waymark::ekf {
 
-/// What stands where in a vector of the state: (x, y, theta | lasting errors | landmark 1, landmark 2, ...).
+/// What stands where in a vector of the state: (x, y, theta | biases | landmark 1, landmark 2, ...).
 /// The mean has this layout, and so have increments and points of linearisation: `values` is one of them.
 struct StateLayout {
   int dimension;     ///< of a landmark: 2 or 3
-  std::size_t head;  ///< rows before the first landmark: the robot's and those of the lasting errors
+  std::size_t head;  ///< rows before the first landmark: the robot's and those of the biases
   int landmarks = 0;
 
   /// Row of a landmark's first coordinate.
@@ -33,13 +33,13 @@ struct StateLayout {
     return {p[0], p[1], dimension == 3 ? p[2] : 0.0};
   }
 
-  /// The rows of the state that the first `rows` rows of a sighting depend on.
-  [[nodiscard]] Touched touched(const Sighting& sighting, int rows) const;
+  /// The rows of the state that the first `rows` rows of an observation depend on.
+  [[nodiscard]] Touched touched(const LinearizedObservation& linearization, int rows) const;
 };
 
-/// The two values of a pair of lasting errors.
+/// The two values of a pair of biases.
 [[nodiscard]] Eigen::Vector2d error_pair(const double* values, int pair);
-/// What lasting errors of these values add up to: the sum of J e.
+/// What biases of these values add up to: the sum of J e.
 [[nodiscard]] Eigen::Vector2d error_part(const double* values, const ErrorTerms& terms);
 
 }  // namespace waymark::ekf

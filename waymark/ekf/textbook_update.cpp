@@ -46,8 +46,8 @@ TextbookUpdate::TextbookUpdate(std::size_t most_rows, std::size_t largest_state)
       P_new_(largest_state, largest_state) {}
 
 bool TextbookUpdate::propose(const Covariance& covariance, const StateLayout& layout,
-                             std::span<const Sighting> sightings, double* increments) {
-  write_down(covariance, layout, sightings);
+                             std::span<const LinearizedObservation> linearizations, double* increments) {
+  write_down(covariance, layout, linearizations);
   if (!solve()) return false;
   for (std::size_t i = 0; i < covariance.size(); ++i) increments[i] = dx(i, 0);
   return true;
@@ -61,18 +61,19 @@ void TextbookUpdate::correct(Covariance& covariance) {
 
 /// H, R, nu and P as dense matrices.
 void TextbookUpdate::write_down(const Covariance& covariance, const StateLayout& layout,
-                                std::span<const Sighting> sightings) {
+                                std::span<const LinearizedObservation> linearizations) {
   std::size_t D = 0;
-  for (const Sighting& sighting : sightings) D += static_cast<std::size_t>(sighting.rows);
+  for (const LinearizedObservation& linearization : linearizations)
+    D += static_cast<std::size_t>(linearization.rows);
   begin(D, covariance.size());
   std::size_t row = 0;
-  for (const Sighting& sighting : sightings) {
-    const Touched t = layout.touched(sighting, sighting.rows);
-    for (int r = 0; r < sighting.rows; ++r, ++row) {
+  for (const LinearizedObservation& linearization : linearizations) {
+    const Touched t = layout.touched(linearization, linearization.rows);
+    for (int r = 0; r < linearization.rows; ++r, ++row) {
       for (int k = 0; k < t.J.cols(); ++k) H(row, t.rows[static_cast<std::size_t>(k)]) = t.J(r, k);
-      for (int s = 0; s < sighting.rows; ++s)
-        R(row, row + static_cast<std::size_t>(s) - static_cast<std::size_t>(r)) = sighting.R(r, s);
-      nu(row, 0) = sighting.nu[r];
+      for (int s = 0; s < linearization.rows; ++s)
+        R(row, row + static_cast<std::size_t>(s) - static_cast<std::size_t>(r)) = linearization.R(r, s);
+      nu(row, 0) = linearization.nu[r];
     }
   }
   for (std::size_t i = 0; i < covariance.size(); ++i)

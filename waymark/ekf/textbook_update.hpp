@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "waymark/ekf/covariance.hpp"
-#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/linearized_observation.hpp"
 #include "waymark/ekf/state_layout.hpp"
 
 namespace waymark::ekf {
@@ -13,8 +13,8 @@ namespace waymark::ekf {
 /// A row-major matrix whose memory is taken once.
 class DenseMatrix {
  public:
-  explicit DenseMatrix(std::size_t most_rows, std::size_t most_columns) {
-    values_.reserve(most_rows * most_columns);
+  explicit DenseMatrix(std::size_t most_rows, std::size_t max_columns) {
+    values_.reserve(most_rows * max_columns);
   }
 
   /// Zeros, of a size that there is room for.
@@ -47,7 +47,7 @@ class TextbookUpdate {
 
   /// The update of a state, as Update::propose() and Update::correct(); increments: n.
   [[nodiscard]] bool propose(const Covariance& covariance, const StateLayout& layout,
-                             std::span<const Sighting> sightings, double* increments);
+                             std::span<const LinearizedObservation> linearizations, double* increments);
   void correct(Covariance& covariance);
 
   /// H and R are zero, everything else is to be set by the caller: nu has `rows` values, P is size x size.
@@ -65,7 +65,7 @@ class TextbookUpdate {
 
  private:
   void write_down(const Covariance& covariance, const StateLayout& layout,
-                  std::span<const Sighting> sightings);
+                  std::span<const LinearizedObservation> linearizations);
   [[nodiscard]] bool invert_innovation_covariance();
 
   DenseMatrix PHt_;        // n x D

@@ -8,7 +8,7 @@
 
 namespace waymark::ekf {
 
-/// The part that a pair of lasting errors has in something linear: J times its two values, by row. A pair
+/// The part that a pair of biases has in something linear: J times its two values, by row. A pair
 /// below 0 has none.
 struct ErrorTerm {
   int pair = -1;
@@ -20,11 +20,11 @@ struct ErrorTerm {
 inline constexpr int kErrorTerms = 3;
 using ErrorTerms = std::array<ErrorTerm, kErrorTerms>;
 
-/// Row of the state at which a pair of lasting errors begins: they come right after the robot.
+/// Row of the state at which a pair of biases begins: they come right after the robot.
 [[nodiscard]] constexpr std::size_t error_offset(int pair) { return 3 + 2 * static_cast<std::size_t>(pair); }
 
 /// What something linear depends on: rows of the state, and its Jacobian to them. First the robot, then
-/// lasting errors, then landmarks.
+/// biases, then landmarks.
 struct Touched {
   static constexpr int kMost = 12 + 2 * kErrorTerms;
 

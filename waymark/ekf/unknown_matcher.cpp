@@ -13,9 +13,9 @@ namespace waymark::ekf {
 namespace {
 
 // A third of the smallest region of a compressed map: so many landmarks may be considered at once.
-constexpr std::size_t kMostConsidered = 48;
+constexpr std::size_t kMaxConsidered = 48;
 // Landmarks that one observation is compared with; the likeliest stay.
-constexpr std::ptrdiff_t kMostPerObservation = 6;
+constexpr std::ptrdiff_t kMaxPerObservation = 6;
 
 /// -2 log N(nu; 0, S) but for a constant.
 double cost_of(double nis, const Eigen::Matrix2d& S) { return nis + std::log(S.determinant()); }
@@ -36,8 +36,8 @@ UnknownMatcher::UnknownMatcher(const UnknownAssociation& association, const Gate
       model_(model),
       gate_(Gate(gate).threshold(2)),
       jointly_(association.jointly),
-      joint_(gate.probability, static_cast<int>(kMostConsidered), association.options.most_pairings) {
-  considered_.reserve(kMostConsidered);
+      joint_(gate.probability, static_cast<int>(kMaxConsidered), association.options.max_pairings) {
+  considered_.reserve(kMaxConsidered);
 }
 
 std::span<const UnknownMatch> UnknownMatcher::match(std::span<const Observation> observations,
@@ -52,7 +52,7 @@ std::span<const UnknownMatch> UnknownMatcher::match(std::span<const Observation>
   if (jointly_)
     match_jointly(observations);
   else
-    match_exclusively(observations);
+    match_greedily(observations);
   return candidates_;
 }
 
@@ -65,8 +65,8 @@ double UnknownMatcher::reach_m(const Observation& observation) const {
          std::sqrt(R(0, 0) + across_m * across_m * R(1, 1));
 }
 
-/// Calls visit(sighting, S, NIS) for the landmarks within the gate of an observation. Standard deviations are
-/// added up to find them: whatever the correlations are, no error is larger.
+/// Calls visit(observation, S, NIS) for the landmarks within the gate of an observation. Standard deviations
+/// are added up to find them: whatever the correlations are, no error is larger.
 template <class Visit>
 void UnknownMatcher::visit_gated(const Observation& observation, const NearbyLandmarks& nearby,
                                  const Visit& visit) const {
@@ -76,33 +76,35 @@ void UnknownMatcher::visit_gated(const Observation& observation, const NearbyLan
   nearby.visit(p_world, k_sigma * (reach + nearby.sigma_m()), [&](int k) {
     const double far_m = (nearby.place(k) - p_world).norm();
     if (far_m > k_sigma * (reach + map_.sigma_m(k))) return;
-    const auto sighting = sensor_.linearize(k, map_.table()[k].id, observation);
-    if (!sighting) return;
-    const Eigen::Matrix2d S = map_.state().innovation_covariance(*sighting);
-    const auto nis = mahalanobis_squared<2>(sighting->nu, S);
-    if (nis && *nis <= gate_) visit(*sighting, S, *nis);
+    const auto linearization = sensor_.linearize(k, map_.table()[k].id, observation);
+    if (!linearization) return;
+    const Eigen::Matrix2d S = map_.state().innovation_covariance(*linearization);
+    const auto nis = mahalanobis_squared<2>(linearization->nu, S);
+    if (nis && *nis <= gate_) visit(*linearization, S, *nis);
   });
 }
 
 bool UnknownMatcher::is_near_a_landmark(const Observation& observation, const NearbyLandmarks& nearby) const {
   bool near = false;
-  visit_gated(observation, nearby, [&](const Sighting&, const Eigen::Matrix2d&, double) { near = true; });
+  visit_gated(observation, nearby,
+              [&](const LinearizedObservation&, const Eigen::Matrix2d&, double) { near = true; });
   return near;
 }
 
 void UnknownMatcher::find_candidates(int index, const Observation& observation,
                                      const NearbyLandmarks& nearby) {
   const auto first = std::ssize(candidates_);
-  visit_gated(observation, nearby, [&](const Sighting& sighting, const Eigen::Matrix2d& S, double nis) {
-    if (!map_.table().is_claimed(sighting.landmark))
-      candidates_.push_back({index, cost_of(nis, S), sighting});
-  });
+  visit_gated(observation, nearby,
+              [&](const LinearizedObservation& linearization, const Eigen::Matrix2d& S, double nis) {
+                if (!map_.table().is_claimed(linearization.landmark))
+                  candidates_.push_back({index, cost_of(nis, S), linearization});
+              });
   std::sort(candidates_.begin() + first, candidates_.end(),
             [](const UnknownMatch& a, const UnknownMatch& b) { return a.cost < b.cost; });
-  if (std::ssize(candidates_) > first + kMostPerObservation)
-    candidates_.erase(candidates_.begin() + first + kMostPerObservation, candidates_.end());
+  if (std::ssize(candidates_) > first + kMaxPerObservation)
+    candidates_.erase(candidates_.begin() + first + kMaxPerObservation, candidates_.end());
   const auto refused = [this](const UnknownMatch& candidate) {
-    return !consider(candidate.sighting.landmark);
+    return !consider(candidate.linearization.landmark);
   };
   candidates_.erase(std::remove_if(candidates_.begin() + first, candidates_.end(), refused),
                     candidates_.end());
@@ -111,39 +113,39 @@ void UnknownMatcher::find_candidates(int index, const Observation& observation,
 /// False if that would be too many landmarks.
 bool UnknownMatcher::consider(int landmark) {
   if (std::ranges::find(considered_, landmark) != considered_.end()) return true;
-  if (considered_.size() == kMostConsidered) return false;
+  if (considered_.size() == kMaxConsidered) return false;
   considered_.push_back(landmark);
   return true;
 }
 
 /// The log-odds that the landmark is observed, over the density of observations of nothing known.
 double UnknownMatcher::bonus(const UnknownMatch& candidate, const Observation& observation) const {
-  const double existence = map_.table()[candidate.sighting.landmark].existence.probability();
-  return model_.log_odds_of_sighting(existence) - model_.log_density_of_others(range_m(observation));
+  const double existence = map_.table()[candidate.linearization.landmark].existence.probability();
+  return model_.log_odds_of_observation(existence) - model_.log_density_of_others(range_m(observation));
 }
 
 void UnknownMatcher::match_jointly(std::span<const Observation> observations) {
   joint_.clear();
   for (const UnknownMatch& c : candidates_)
-    joint_.add({c.observation, c.sighting.landmark, c.sighting.nu, c.sighting.R,
+    joint_.add({c.observation, c.linearization.landmark, c.linearization.nu, c.linearization.R,
                 bonus(c, observations[as_index(c.observation)])});
   map_.state().consider(considered_);
   joint_.solve(static_cast<int>(observations.size()), [&](int a, int b) {
-    return map_.state().common_covariance(candidates_[as_index(a)].sighting,
-                                          candidates_[as_index(b)].sighting);
+    return map_.state().common_covariance(candidates_[as_index(a)].linearization,
+                                          candidates_[as_index(b)].linearization);
   });
   keep([this](int pair) { return joint_.pair_of(candidates_[as_index(pair)].observation) == pair; });
 }
 
-void UnknownMatcher::match_exclusively(std::span<const Observation> observations) {
+void UnknownMatcher::match_greedily(std::span<const Observation> observations) {
   exclusive_.clear();
   for (const UnknownMatch& c : candidates_)
-    exclusive_.add({c.observation, c.sighting.landmark,
+    exclusive_.add({c.observation, c.linearization.landmark,
                     -0.5 * c.cost - kLogTwoPi + bonus(c, observations[as_index(c.observation)])});
   exclusive_.solve(static_cast<int>(observations.size()), map_.state().landmarks(), 0.0);
   keep([this](int pair) {
     const UnknownMatch& c = candidates_[as_index(pair)];
-    return exclusive_.landmark_of(c.observation) == c.sighting.landmark;
+    return exclusive_.landmark_of(c.observation) == c.linearization.landmark;
   });
 }
 

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "waymark/association/association_options.hpp"
-#include "waymark/association/exclusive_match.hpp"
-#include "waymark/association/joint_match.hpp"
+#include "waymark/association/greedy_match.hpp"
+#include "waymark/association/joint_compatibility.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/observation.hpp"
 #include "waymark/ekf/ekf_options.hpp"
@@ -21,12 +21,12 @@ namespace waymark::ekf {
 struct UnknownMatch {
   int observation = 0;  ///< of the scan
   double cost = 0.0;    ///< -2 log-likelihood, but for a constant
-  Sighting sighting;
+  LinearizedObservation linearization;
 };
 
 /// Finds which landmarks the observations without identity of one scan are of: all of them jointly
-/// (JointMatch) or pair by pair (ExclusiveMatch). docs/association.md describes the score. Range and bearing
-/// only. Memory is taken as scans grow and kept.
+/// (JointCompatibility) or pair by pair (GreedyMatch). docs/association.md describes the score. Range and
+/// bearing only. Memory is taken as scans grow and kept.
 class UnknownMatcher {
  public:
   /// Bound to the map and to the sensor's model.
@@ -36,7 +36,7 @@ class UnknownMatcher {
   /// Matches the observations that are kUnidentified in `innovations` with landmarks that are not claimed in
   /// this scan, one to one, in the order of the observations. Brings the landmarks in question into the
   /// region of a compressed map, 48 at most. The view is good until the next call. Cost: an innovation
-  /// covariance per landmark within reach, and JointMatch's.
+  /// covariance per landmark within reach, and JointCompatibility's.
   [[nodiscard]] std::span<const UnknownMatch> match(std::span<const Observation> observations,
                                                     std::span<const Innovation> innovations,
                                                     const NearbyLandmarks& nearby);
@@ -52,7 +52,7 @@ class UnknownMatcher {
   [[nodiscard]] bool consider(int landmark);
   [[nodiscard]] double bonus(const UnknownMatch& candidate, const Observation& observation) const;
   void match_jointly(std::span<const Observation> observations);
-  void match_exclusively(std::span<const Observation> observations);
+  void match_greedily(std::span<const Observation> observations);
   template <class IsMatch>
   void keep(const IsMatch& is_match);
 
@@ -61,8 +61,8 @@ class UnknownMatcher {
   AssociationModel model_;
   double gate_;
   bool jointly_;
-  ExclusiveMatch exclusive_;
-  JointMatch joint_;
+  GreedyMatch exclusive_;
+  JointCompatibility joint_;
   std::vector<UnknownMatch> candidates_;  // in the order of the observations; then the matches
   std::vector<int> considered_;           // their landmarks
 };

@@ -19,18 +19,19 @@ constexpr std::size_t kParallelSize = 800;
 
 Update::Update(std::size_t capacity, int threads)
     : ld_(kernels::padded_stride(capacity)),
-      W_(ld_ * kMostRows),
+      W_(ld_ * kMaxRows),
       dx_(ld_),
-      S_(kMostRows, kMostRows),
-      nu_(kMostRows),
-      team_(threads) {}
+      S_(kMaxRows, kMaxRows),
+      nu_(kMaxRows),
+      thread_pool_(threads) {}
 
-void Update::use_textbook() { textbook_ = std::make_unique<TextbookUpdate>(kMostRows, ld_); }
+void Update::use_textbook() { textbook_ = std::make_unique<TextbookUpdate>(kMaxRows, ld_); }
 
-bool Update::propose(const Covariance& P, const StateLayout& layout, std::span<const Sighting> sightings) {
-  if (textbook_) return textbook_->propose(P, layout, sightings, dx_.data());
+bool Update::propose(const Covariance& P, const StateLayout& layout,
+                     std::span<const LinearizedObservation> linearizations) {
+  if (textbook_) return textbook_->propose(P, layout, linearizations, dx_.data());
   const std::size_t n = P.size();
-  form_innovation_covariance(P, layout, sightings);
+  form_innovation_covariance(P, layout, linearizations);
   if (!factorize()) return false;
   kernels::triangular_solve(S_.data(), static_cast<std::size_t>(S_.cols()), rows_, W_.data(), ld_, n);
   std::fill_n(dx_.data(), n, 0.0);
@@ -41,27 +42,27 @@ bool Update::propose(const Covariance& P, const StateLayout& layout, std::span<c
 
 /// C = H P from the touched rows of P, and the lower triangle of S = C H^T + R.
 void Update::form_innovation_covariance(const Covariance& P, const StateLayout& layout,
-                                        std::span<const Sighting> sightings) {
-  assert(sightings.size() <= kMostSightings);
+                                        std::span<const LinearizedObservation> linearizations) {
+  assert(linearizations.size() <= kManyObservations);
   rows_ = 0;
-  for (const Sighting& sighting : sightings) {
-    P.project(layout.touched(sighting, sighting.rows), &W_[rows_ * ld_], ld_);
-    nu_.segment(static_cast<int>(rows_), sighting.rows) = sighting.nu.head(sighting.rows);
-    rows_ += static_cast<std::size_t>(sighting.rows);
+  for (const LinearizedObservation& linearization : linearizations) {
+    P.project(layout.touched(linearization, linearization.rows), &W_[rows_ * ld_], ld_);
+    nu_.segment(static_cast<int>(rows_), linearization.rows) = linearization.nu.head(linearization.rows);
+    rows_ += static_cast<std::size_t>(linearization.rows);
   }
   int column = 0;
-  for (const Sighting& sighting : sightings) {
-    const Touched H = layout.touched(sighting, sighting.rows);
+  for (const LinearizedObservation& linearization : linearizations) {
+    const Touched H = layout.touched(linearization, linearization.rows);
     for (int i = column; i < static_cast<int>(rows_); ++i) {
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
-      for (int r = 0; r < sighting.rows; ++r) {
-        double s = i < column + sighting.rows ? sighting.R(i - column, r) : 0.0;
+      for (int r = 0; r < linearization.rows; ++r) {
+        double s = i < column + linearization.rows ? linearization.R(i - column, r) : 0.0;
         // Vincke (11)
         for (int k = 0; k < H.J.cols(); ++k) s += c[H.rows[static_cast<std::size_t>(k)]] * H.J(r, k);
         S_(i, column + r) = s;
       }
     }
-    column += sighting.rows;
+    column += linearization.rows;
   }
 }
 
@@ -84,8 +85,8 @@ void Update::correct(Covariance& P, Shear* shear) {
   if (updated_rows(n) < n)  // Vincke (12)
     return kernels::symmetric_downdate(P.data(), ld_, n, W_.data(), ld_, rows_, {0, updated_rows(n)});
   if (shear != nullptr) shear->prepare(P, W_.data(), ld_, rows_);
-  const int bands = n < kParallelSize ? 1 : team_.size();
-  team_.run(bands, [&](int band) {  // Vincke (12)
+  const int bands = n < kParallelSize ? 1 : thread_pool_.size();
+  thread_pool_.run(bands, [&](int band) {  // Vincke (12)
     const auto range =
         kernels::triangle_band(n, static_cast<std::size_t>(band), static_cast<std::size_t>(bands));
     if (shear != nullptr)
@@ -100,8 +101,8 @@ Gain Update::gain() const {
 }
 
 JointCovariance Update::joint_innovation_covariance(const Covariance& P, const StateLayout& layout,
-                                                    std::span<const Sighting> sightings) {
-  form_innovation_covariance(P, layout, sightings);
+                                                    std::span<const LinearizedObservation> linearizations) {
+  form_innovation_covariance(P, layout, linearizations);
   return S_.topLeftCorner(static_cast<int>(rows_), static_cast<int>(rows_));
 }
 

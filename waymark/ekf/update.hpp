@@ -10,8 +10,8 @@
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/core/parallel.hpp"
 #include "waymark/ekf/covariance.hpp"
+#include "waymark/ekf/linearized_observation.hpp"
 #include "waymark/ekf/shear.hpp"
-#include "waymark/ekf/sighting.hpp"
 #include "waymark/ekf/state_layout.hpp"
 #include "waymark/ekf/textbook_update.hpp"
 
@@ -36,8 +36,8 @@ using JointCovariance =
     Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
                Eigen::OuterStride<>>;
 
-/// The update with several sightings at once, exactly, in two steps (Vincke et al. 2012, equations 10 to 12,
-/// where the sightings bring nu of equation 10):
+/// The update with several observations at once, exactly, in two steps (Vincke et al. 2012, equations 10 to
+/// 12, where the observations bring nu of equation 10):
 ///
 ///     C = H P,   S = C H^T + R = L L^T,   W = L^-1 C,   dx = W^T L^-1 nu     propose()
 ///     P <- P - W^T W                                                         correct()
@@ -45,9 +45,9 @@ using JointCovariance =
 /// so that no gain is formed: K = W^T L^-1. n^2 D flop; nothing allocates after construction.
 class Update {
  public:
-  /// Most sightings, and measurement rows, that are taken at once.
-  static constexpr int kMostSightings = 32;
-  static constexpr std::size_t kMostRows = 2 * kMostSightings;
+  /// Most observations, and measurement rows, that are taken at once.
+  static constexpr int kManyObservations = 32;
+  static constexpr std::size_t kMaxRows = 2 * kManyObservations;
 
   /// For states of up to `capacity` values; `threads` share what is large.
   Update(std::size_t capacity, int threads);
@@ -57,11 +57,11 @@ class Update {
   [[nodiscard]] bool is_textbook() const { return textbook_ != nullptr; }
   /// From now on the values from row `rows` on stay as they are, in mean and covariance: what they are unsure
   /// of is considered (Schmidt 1966). n D rows flop.
-  void consider_all_from(std::size_t rows) { most_rows_ = rows; }
+  void consider_all_from(std::size_t rows) { max_rows_ = rows; }
 
   /// Finds dx; changes nothing. False if S is not positive definite.
   [[nodiscard]] bool propose(const Covariance& P, const StateLayout& layout,
-                             std::span<const Sighting> sightings);
+                             std::span<const LinearizedObservation> linearizations);
   /// The increments of the state, n, that were proposed last.
   [[nodiscard]] double* dx() { return dx_.data(); }
   [[nodiscard]] const double* dx() const { return dx_.data(); }
@@ -70,15 +70,15 @@ class Update {
   /// Of the last correct(), without a shear; nothing else may have happened since.
   [[nodiscard]] Gain gain() const;
 
-  /// S of all these sightings together. Drops what was proposed. A view, good until the next call.
-  [[nodiscard]] JointCovariance joint_innovation_covariance(const Covariance& P, const StateLayout& layout,
-                                                            std::span<const Sighting> sightings);
+  /// S of all these observations together. Drops what was proposed. A view, good until the next call.
+  [[nodiscard]] JointCovariance joint_innovation_covariance(
+      const Covariance& P, const StateLayout& layout, std::span<const LinearizedObservation> linearizations);
 
  private:
   void form_innovation_covariance(const Covariance& P, const StateLayout& layout,
-                                  std::span<const Sighting> sightings);
+                                  std::span<const LinearizedObservation> linearizations);
   [[nodiscard]] bool factorize();
-  [[nodiscard]] std::size_t updated_rows(std::size_t n) const { return std::min(n, most_rows_); }
+  [[nodiscard]] std::size_t updated_rows(std::size_t n) const { return std::min(n, max_rows_); }
 
   std::size_t ld_;
   AlignedArray<double> W_;                                                    // D x n: C, then W
@@ -86,8 +86,8 @@ class Update {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> S_;  // D x D, then L
   Eigen::VectorXd nu_;                                                        // D, then L^-1 nu
   std::size_t rows_ = 0;                                                      // D
-  std::size_t most_rows_ = std::numeric_limits<std::size_t>::max();           // that change
-  ThreadTeam team_;
+  std::size_t max_rows_ = std::numeric_limits<std::size_t>::max();            // that change
+  ThreadPool thread_pool_;
   std::unique_ptr<TextbookUpdate> textbook_;  // where that is used
 };
 

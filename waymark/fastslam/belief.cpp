@@ -35,11 +35,11 @@ Belief::Belief(const FastSlamOptions& options, const LandmarkSensor& sensor, int
 
 void Belief::predict(const Motion& motion) {
   pending = compose(pending, motion);
-  landmarks.travel(way_m(motion));
+  landmarks.travel(travelled_m(motion));
   has_moved = true;
 }
 
-void Belief::step(std::span<const AcceptedSighting> accepted) {
+void Belief::step(std::span<const AcceptedObservation> accepted) {
   const Eigen::Vector2d before_m = origin_m();
   estimate = pose();
   fastslam::step(particles, pending, before_m, accepted, {seed, StreamPurpose::kMotion, steps++}, blocks);

@@ -50,7 +50,7 @@ struct Belief {
   void predict(const Motion& motion);
 
   /// The particles make the pending motion, and take in the observations. O(N (1 + observations)).
-  void step(std::span<const AcceptedSighting> accepted);
+  void step(std::span<const AcceptedObservation> accepted);
 
   /// The estimate follows the particles' weights. O(N).
   void update_estimate();
@@ -79,8 +79,8 @@ struct Belief {
   void load_sample() { sample.load(particles, origin_m()); }
   /// How an observation compares with what the set expects after the pending motion. The particles must not
   /// have changed since load_sample().
-  [[nodiscard]] InnovationMoments compare(const kernels::Sighting& sighting) {
-    return sample.compare(sighting, increment_of(pending));
+  [[nodiscard]] InnovationMoments compare(const kernels::LandmarkObservation& landmark_observation) {
+    return sample.compare(landmark_observation, increment_of(pending));
   }
 
   /// Calls job(sensors, range) for every block of particles, `sensors` being where they have the sensor. On

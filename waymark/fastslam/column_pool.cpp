@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kFloatsPerCacheLine = 16;
 constexpr std::size_t kFloatsPerSlab = 1 << 16;
-constexpr std::size_t kLeastColumnsPerSlab = 5;  // one landmark
+constexpr std::size_t kMinColumnsPerSlab = 5;  // one landmark
 
 // Whole cache lines, an odd number of them: the same particle's entries in the columns of a landmark must not
 // all fall into one cache set.
@@ -20,7 +20,7 @@ std::size_t column_stride(std::size_t particles) {
 
 ColumnPool::ColumnPool(std::size_t particles)
     : stride_(column_stride(particles)),
-      columns_per_slab_(std::max(kLeastColumnsPerSlab, kFloatsPerSlab / stride_)) {}
+      columns_per_slab_(std::max(kMinColumnsPerSlab, kFloatsPerSlab / stride_)) {}
 
 void ColumnPool::add_slab() {
   float* const first = slabs_.emplace_back(columns_per_slab_ * stride_).data();

@@ -11,8 +11,8 @@ namespace {
 enum Block : std::size_t { kAssociate, kCompare, kUpdate, kEstimate, kResample, kAdd };
 
 // Particles draw from the collected motion at the latest when its heading is this unsure: a Gaussian (x, y,
-// theta) is then still a good picture of it, the sagitta 1 - cos(3 sigma) being 0.4 % of the distance.
-constexpr double kMaxPendingHeadingSigma_rad = 0.5;
+// theta) is then still a good model of it, the sagitta 1 - cos(3 sigma) being 0.4 % of the distance.
+constexpr double kMaxDeferredHeadingSigma_rad = 0.5;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void FastSlam::predict(const Motion& motion) {
   belief_.predict(motion);
   history_.move(motion.increment);
   const double heading_variance = belief_.pending.covariance(2, 2);
-  if (heading_variance < kMaxPendingHeadingSigma_rad * kMaxPendingHeadingSigma_rad) return;
+  if (heading_variance < kMaxDeferredHeadingSigma_rad * kMaxDeferredHeadingSigma_rad) return;
   BlockTimer timer(blocks_, kUpdate);
   belief_.step({});
   belief_.update_estimate();
@@ -58,9 +58,9 @@ const Correction& FastSlam::correct(std::span<const Observation> observations) {
   timer.finish(kAssociate);
   if (tells_nothing()) return correction_;
 
-  gate();              // 1
-  accept();            // 2
-  settle_contested();  // 1 and 2, without identity
+  gate();               // 1
+  accept();             // 2
+  resolve_ambiguous();  // 1 and 2, without identity
   timer.finish(kCompare);
   belief_.step(update_.accepted());  // 3
   weigh();                           // 4
@@ -103,13 +103,13 @@ Outcome FastSlam::identify(std::size_t index) const {
 /// How many more landmarks the scan may add.
 int FastSlam::room() const { return map_.room(belief_) - scan_.count(Outcome::kAdded); }
 
-bool FastSlam::is_contested(std::size_t index) const {
-  return unknown_ && unknown_->matcher.is_contested(index);
+bool FastSlam::is_ambiguous(std::size_t index) const {
+  return unknown_ && unknown_->matcher.is_ambiguous(index);
 }
 
 bool FastSlam::tells_nothing() const {
   return !scan_.any(Outcome::kMatched) && !scan_.any(Outcome::kAdded) &&
-         !(unknown_ && unknown_->matcher.any_contested());
+         !(unknown_ && unknown_->matcher.any_ambiguous());
 }
 
 /// Each observation is judged by itself, before any of them moves or weighs a particle: their order does not
@@ -124,8 +124,8 @@ void FastSlam::gate() {
 /// The motion that is still to be drawn is made less sure.
 void FastSlam::recover() {
   belief_.has_moved = true;
-  recovery_.recover(scan_.innovations, [this](const Motion& slip) {
-    belief_.pending = compose(belief_.pending, slip);
+  recovery_.recover(scan_.innovations, [this](const Motion& added_motion) {
+    belief_.pending = compose(belief_.pending, added_motion);
     for (std::size_t i = 0; i < scan_.size(); ++i)
       if (scan_.is(i, Outcome::kGated)) gate_.judge(i, scan_, belief_);
   });
@@ -134,11 +134,11 @@ void FastSlam::recover() {
 void FastSlam::accept() {
   update_.begin();
   const std::span<const fastslam::ViewEdge> edges = edges_.find(scan_, history_, belief_);
-  const std::int64_t moves = update_.moves();
+  const std::int64_t enkf_updates = update_.enkf_updates();
   for (std::size_t i = 0; i < scan_.size(); ++i) {
     if (!scan_.is(i, Outcome::kMatched)) continue;
     // What was compared before another observation moved the particles is compared again.
-    if (update_.moves() != moves)
+    if (update_.enkf_updates() != enkf_updates)
       scan_.moments[i] = gate_.compare(scan_.observations[i], scan_.landmarks[i], belief_);
     accept(i);
   }
@@ -147,26 +147,26 @@ void FastSlam::accept() {
 
 void FastSlam::accept(std::size_t index) {
   const int landmark = scan_.landmarks[index];
-  update_.accept(model_.sighting(scan_.observations[index], landmark, belief_), landmark,
+  update_.accept(model_.observation(scan_.observations[index], landmark, belief_), landmark,
                  update_.power(landmark, belief_), scan_.moments[index], belief_);
   belief_.observe(landmark, scan_.observations[index]);
 }
 
 void FastSlam::accept(const fastslam::ViewEdge& edge) {
   belief_.store.touch(edge.landmark);
-  kernels::Sighting sighting = edge.sighting;
-  sighting.landmark = belief_.view(edge.landmark);
+  kernels::LandmarkObservation landmark_observation = edge.observation;
+  landmark_observation.landmark = belief_.view(edge.landmark);
   belief_.load_sample();
-  const fastslam::InnovationMoments moments = belief_.compare(sighting);
+  const fastslam::InnovationMoments moments = belief_.compare(landmark_observation);
   const double nis = moments.mean[0] * moments.mean[0] / moments.covariance()(0, 0);
-  if (nis <= gate_.threshold(1)) update_.accept(sighting, edge.landmark, 1.0, moments, belief_);
+  if (nis <= gate_.threshold(1)) update_.accept(landmark_observation, edge.landmark, 1.0, moments, belief_);
 }
 
 /// What the set could not decide, it may be able to when clear observations have moved it. Then each particle
 /// decides.
-void FastSlam::settle_contested() {
+void FastSlam::resolve_ambiguous() {
   if (!unknown_) return;
-  for (const std::size_t i : unknown_->matcher.match_contested(scan_, gate_, room(), belief_)) {
+  for (const std::size_t i : unknown_->matcher.match_ambiguous(scan_, gate_, room(), belief_)) {
     gate_.judge(i, scan_, belief_);
     if (scan_.is(i, Outcome::kMatched)) accept(i);
   }
@@ -185,13 +185,13 @@ void FastSlam::manage_map() {
   map_.refine(belief_);
   if (!unknown_) return;
   unknown_->existence.update(scan_, unknown_->matcher, gate_.threshold(2), belief_);
-  map_.forget_ghosts(belief_);
+  map_.delete_false_tracks(belief_);
   map_.initialise_choices(scan_, unknown_->matcher, belief_);
 }
 
 void FastSlam::initialise() {
   for (std::size_t i = 0; i < scan_.size(); ++i)
-    if (scan_.is(i, Outcome::kAdded) && !is_contested(i)) map_.initialise(i, scan_, history_, belief_);
+    if (scan_.is(i, Outcome::kAdded) && !is_ambiguous(i)) map_.initialise(i, scan_, history_, belief_);
 }
 
 Snapshot FastSlam::snapshot() const { return {{}, pose(), fastslam::summarise_landmarks(belief_)}; }

@@ -26,17 +26,18 @@
 namespace waymark {
 
 /// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003 \cite montemerlo2002 \cite montemerlo2003) over
-/// sightings of 2-D landmarks, with identities or without, by range and bearing, range alone or bearing
+/// observations of 2-D landmarks, with identities or without, by range and bearing, range alone or bearing
 /// alone. Motion is collected until something is seen, then every particle draws from it. docs/fastslam.md
 /// has the equations.
 ///
-/// Given a particle's path the pose of a first sighting is exactly known. So a landmark of which only the
+/// Given a particle's path the pose of a first observation is exactly known. So a landmark of which only the
 /// bearing is known is kept as direction and inverse distance from there, one of which only the range is
-/// known as hypotheses on a ring about there: each nearly linear, and of use from the first sighting on. They
-/// turn into points when that is nearly linear too.
+/// known as hypotheses on a ring about there: each nearly linear, and of use from the first observation on.
+/// They turn into points when that is nearly linear too.
 ///
 /// Robust where the plain filter starves:
-/// * A sighting weighs particles by how much news it brings (fastslam::InformationWeight), or moves them
+/// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
+/// moves them
 ///   instead (fastslam::ScanUpdate).
 /// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). A
 ///   set that refuses several in a row is itself what is wrong, and has to accept again (Recovery).
@@ -45,7 +46,7 @@ namespace waymark {
 /// * A robot that stands still is neither predicted nor resampled.
 class FastSlam final : public Filter {
  public:
-  /// Of `sensor` it takes where it sits, its lasting errors, its limits, and its noise where an observation
+  /// Of `sensor` it takes where it sits, its biases, its limits, and its noise where an observation
   /// brings no covariance. `threads` share the particles. Takes memory for particles here, and for a landmark
   /// when it is added. One object must not be used by two threads at once; two objects may.
   FastSlam(const FastSlamOptions& options, const LandmarkSensor& sensor, int threads = 1);
@@ -63,11 +64,11 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return belief_.calibration; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
-  /// How often a sighting moved the particles instead of weighing them.
-  [[nodiscard]] std::int64_t moves() const { return update_.moves(); }
-  /// How often the robot must have slipped far beyond its odometry: see Recovery.
-  [[nodiscard]] std::int64_t slips() const { return recovery_.slips(); }
-  /// How many unnamed sightings the particles did not agree on.
+  /// How often an observation moved the particles instead of weighing them.
+  [[nodiscard]] std::int64_t enkf_updates() const { return update_.enkf_updates(); }
+  /// How often the robot was lost and recovered: see Recovery.
+  [[nodiscard]] std::int64_t recoveries() const { return recovery_.recoveries(); }
+  /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }
 
  private:
@@ -82,14 +83,14 @@ class FastSlam final : public Filter {
   void associate();
   [[nodiscard]] Outcome identify(std::size_t index) const;
   [[nodiscard]] int room() const;
-  [[nodiscard]] bool is_contested(std::size_t index) const;
+  [[nodiscard]] bool is_ambiguous(std::size_t index) const;
   [[nodiscard]] bool tells_nothing() const;
   void gate();
   void recover();
   void accept();
   void accept(std::size_t index);
   void accept(const fastslam::ViewEdge& edge);
-  void settle_contested();
+  void resolve_ambiguous();
   void weigh();
   void manage_map();
   void initialise();

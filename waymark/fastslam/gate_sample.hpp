@@ -6,7 +6,7 @@
 
 #include "waymark/core/aligned_array.hpp"
 #include "waymark/fastslam/particles.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 
 namespace waymark::fastslam {
 
@@ -29,9 +29,9 @@ class GateSample {
   /// The particles as they are now, positions counted from `origin_m`. They must stay until compare().
   void load(const Particles& particles, const Eigen::Vector2d& origin_m);
 
-  /// How a sighting compares with what the loaded particles expect when all make the same increment, which is
-  /// still to be drawn.
-  [[nodiscard]] InnovationMoments compare(const kernels::Sighting& sighting,
+  /// How an observation compares with what the loaded particles expect when all make the same increment,
+  /// which is still to be drawn.
+  [[nodiscard]] InnovationMoments compare(const kernels::LandmarkObservation& observation,
                                           const kernels::Increment& increment);
 
  private:

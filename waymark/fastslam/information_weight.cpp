@@ -5,12 +5,12 @@
 
 namespace waymark::fastslam {
 
-double InformationWeight::power(double way_since_m) const {
-  return evidence_way_m_ > 0.0 ? -std::expm1(-way_since_m / evidence_way_m_) : 1.0;
+double InformationWeight::power(double travelled_since_m) const {
+  return information_distance_m_ > 0.0 ? -std::expm1(-travelled_since_m / information_distance_m_) : 1.0;
 }
 
-double lasting_variance_factor(double way_since_m, double lasting_way_m) {
-  return 1.0 / std::tanh(std::max(way_since_m, kLeastWay_m) / (2.0 * lasting_way_m));
+double bias_variance_factor(double travelled_since_m, double bias_distance_m) {
+  return 1.0 / std::tanh(std::max(travelled_since_m, kMinTravelled_m) / (2.0 * bias_distance_m));
 }
 
 }  // namespace waymark::fastslam

@@ -14,10 +14,10 @@ namespace {
 
 using kernels::kDeadMode;
 using kernels::LandmarkForm;
+using kernels::LandmarkMeasurement;
 using kernels::LandmarkMode;
 using kernels::LandmarkView;
-using kernels::SeenLandmark;
-using kernels::SightingKind;
+using kernels::ObservationKind;
 
 // The sum of Gaussians on a ring is flat to 0.3 % when each is so wide in units of their spacing.
 constexpr double kRingOverlap = 0.6;
@@ -25,11 +25,11 @@ constexpr double kRingOverlap = 0.6;
 // 2005).
 constexpr double kDepthSigma = 0.2;
 // Pieces of a ray are widened by so much, in variance, that their sum is smooth.
-constexpr double kRayWidening = 3.0;
+constexpr double kRayInflation = 3.0;
 // Places on a ray or a ring that are asked whether the landmark can be there.
 constexpr int kCells = 1024;
 // Limits of range further apart than this are those of a sensor of which nobody said any.
-constexpr double kMostLimitedRatio = 100.0;
+constexpr double kMaxLimitedRatio = 100.0;
 // What was measured may be wrong by so many standard deviations.
 constexpr double kMargin = 3.0;
 // No landmark is nearer than this to a sensor whose limits do not say.
@@ -197,7 +197,7 @@ bool is_linear_ray(const LandmarkStore& store, int landmark, const Particles& pa
 }
 
 /// Where it was seen, in the sensor's frame.
-Eigen::Vector2d direction_of(const SeenLandmark& seen, const LandmarkSensor& sensor) {
+Eigen::Vector2d direction_of(const LandmarkMeasurement& seen, const LandmarkSensor& sensor) {
   return Pose2{0.0, 0.0, -to_radians(sensor.yaw_deg)} * Eigen::Vector2d(seen.cos_bearing, seen.sin_bearing);
 }
 
@@ -229,9 +229,9 @@ class Pieces {
     for (const Piece& p : pieces_) most = std::max(most, p.mass);
     double all = 0.0;
     for (const Piece& p : pieces_)
-      if (p.mass > kLeastPart * most) all += p.mass;
+      if (p.mass > kMinPart * most) all += p.mass;
     for (const Piece& p : pieces_) {
-      if (!(p.mass > kLeastPart * most)) continue;
+      if (!(p.mass > kMinPart * most)) continue;
       const double mean = p.first / p.mass;
       const double variance = std::max(p.second / p.mass - mean * mean, 0.0);
       first.guess.modes[first.modes++] = {narrow(mean), narrow(widening * variance + blur),
@@ -241,7 +241,7 @@ class Pieces {
   }
 
  private:
-  static constexpr double kLeastPart = 0.01;
+  static constexpr double kMinPart = 0.01;
 
   struct Piece {
     double mass = 0.0;
@@ -253,12 +253,13 @@ class Pieces {
 
 /// Pieces of a ray in a geometric series of distances. Every distance between the limits is as likely; where
 /// those are so far apart that they say nothing, every order of magnitude.
-FirstForm first_ray(const SeenLandmark& seen, const LandmarkSensor& sensor, const ViewHistory& history) {
+FirstForm first_ray(const LandmarkMeasurement& seen, const LandmarkSensor& sensor,
+                    const ViewHistory& history) {
   constexpr double kRatio = (1.0 + kDepthSigma) / (1.0 - kDepthSigma);
   const double nearest_m = std::max(sensor.min_range_m, kLeastDepth_m);
   const double farthest_m = std::max(sensor.max_range_m, 1.01 * nearest_m);
   const double decades = std::log(farthest_m / nearest_m);
-  const bool is_limited = farthest_m / nearest_m < kMostLimitedRatio;
+  const bool is_limited = farthest_m / nearest_m < kMaxLimitedRatio;
   const double steps = std::ceil(decades / std::log(kRatio));
   const double count = std::clamp(steps, 1.0, static_cast<double>(kernels::kMaxModes));
   const Eigen::Vector2d direction = direction_of(seen, sensor);
@@ -278,11 +279,12 @@ FirstForm first_ray(const SeenLandmark& seen, const LandmarkSensor& sensor, cons
   mean_depth_m /= mass;
   // The step of the cells and the error of a range, as inverse distances.
   const double blur = std::hypot(sensor.range_sigma_m / mean_depth_m, decades / kCells) / mean_depth_m;
-  return pieces.form(LandmarkForm::kRay, kRayWidening, blur * blur);
+  return pieces.form(LandmarkForm::kRay, kRayInflation, blur * blur);
 }
 
 /// Pieces of the arc within the field of view, every direction as likely.
-FirstForm first_ring(const SeenLandmark& seen, const LandmarkSensor& sensor, const ViewHistory& history) {
+FirstForm first_ring(const LandmarkMeasurement& seen, const LandmarkSensor& sensor,
+                     const ViewHistory& history) {
   const double view_rad = to_radians(std::clamp(sensor.field_of_view_deg, 1.0, 360.0));
   const double sigma_phi =
       std::sqrt(0.6 * std::sqrt(static_cast<double>(seen.R_rr)) / static_cast<double>(seen.range));
@@ -303,19 +305,19 @@ FirstForm first_ring(const SeenLandmark& seen, const LandmarkSensor& sensor, con
 
 }  // namespace
 
-FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor,
+FirstForm first_form(const kernels::LandmarkMeasurement& seen, const LandmarkSensor& sensor,
                      const ViewHistory& history) {
-  if (seen.kind == SightingKind::kRangeBearing) return {};
-  return seen.kind == SightingKind::kBearing ? first_ray(seen, sensor, history)
-                                             : first_ring(seen, sensor, history);
+  if (seen.kind == ObservationKind::kRangeBearing) return {};
+  return seen.kind == ObservationKind::kBearing ? first_ray(seen, sensor, history)
+                                                : first_ring(seen, sensor, history);
 }
 
-void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,
+void place_by_guess(LandmarkStore& store, int landmark, const kernels::LandmarkMeasurement& seen,
                     const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
                     ParticleBlocks& blocks) {
   const LandmarkView view = store.view(landmark, {0.0, 0.0});
   const Eigen::Vector2d origin_m(view.offset_x, view.offset_y);
-  const bool draws_range = seen.kind == SightingKind::kBearing;
+  const bool draws_range = seen.kind == ObservationKind::kBearing;
   const double half_view_rad = to_radians(0.5 * sensor.field_of_view_deg);
   const double low = draws_range ? sensor.min_range_m : -half_view_rad;
   const double high = draws_range ? sensor.max_range_m : half_view_rad;
@@ -338,9 +340,10 @@ void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandm
   });
 }
 
-bool can_take(LandmarkForm form, SightingKind kind) {
-  return form == LandmarkForm::kPoint || (form == LandmarkForm::kRay && kind == SightingKind::kBearing) ||
-         (form == LandmarkForm::kRing && (kind == SightingKind::kRange || kind == SightingKind::kViewEdge));
+bool can_take(LandmarkForm form, ObservationKind kind) {
+  return form == LandmarkForm::kPoint || (form == LandmarkForm::kRay && kind == ObservationKind::kBearing) ||
+         (form == LandmarkForm::kRing &&
+          (kind == ObservationKind::kRange || kind == ObservationKind::kViewEdge));
 }
 
 void tidy_modes(LandmarkStore& store, int landmark, const Particles& particles, ParticleBlocks& blocks) {

@@ -6,7 +6,7 @@
 #include "waymark/fastslam/particle_step.hpp"
 #include "waymark/fastslam/particles.hpp"
 #include "waymark/fastslam/view_history.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark::fastslam {
@@ -22,17 +22,17 @@ struct FirstForm {
 /// (Sola et al. 2005); a range as a ring of hypotheses over its field of view, so many that each stays nearly
 /// linear while the robot moves as far as the landmark is away: b sigma_phi^2 / 2 < 0.3 sigma_r (after Blanco
 /// et al. 2008 and Djugash and Singh 2008). Only where it can have been out of view until now.
-[[nodiscard]] FirstForm first_form(const kernels::SeenLandmark& seen, const LandmarkSensor& sensor,
+[[nodiscard]] FirstForm first_form(const kernels::LandmarkMeasurement& seen, const LandmarkSensor& sensor,
                                    const ViewHistory& history);
 
 /// A point that each particle draws: on the ray within the sensor's limits where only the bearing was
 /// measured, on the arc within its field of view where only the range was; as unsure as the draw.
-void place_by_guess(LandmarkStore& store, int landmark, const kernels::SeenLandmark& seen,
+void place_by_guess(LandmarkStore& store, int landmark, const kernels::LandmarkMeasurement& seen,
                     const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
                     ParticleBlocks& blocks);
 
-/// Whether a landmark of such a form can be updated by such a sighting.
-[[nodiscard]] bool can_take(kernels::LandmarkForm form, kernels::SightingKind kind);
+/// Whether a landmark of such a form can be updated by such an observation.
+[[nodiscard]] bool can_take(kernels::LandmarkForm form, kernels::ObservationKind kind);
 
 /// Hypotheses that have come together become one, those that no particle has any more are forgotten, and when
 /// hardly any particle has more than one left, each keeps its best.

@@ -28,7 +28,7 @@ std::vector<LandmarkMode> LandmarkStore::empty_modes() {
 }
 
 int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::size_t modes, bool doubtful) {
-  Landmark landmark{form, origin_m, empty_modes(), nullptr, nullptr, nullptr, present_};
+  LandmarkColumns landmark{form, origin_m, empty_modes(), nullptr, nullptr, nullptr, present_};
   for (std::size_t k = 0; k < modes; ++k) {
     LandmarkMode& mode = landmark.modes.emplace_back();
     mode.gaussian = {pool_.take(), pool_.take(), pool_.take(), pool_.take(), pool_.take()};
@@ -48,7 +48,7 @@ int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::
 }
 
 void LandmarkStore::remove(int landmark) {
-  Landmark& removed = of(landmark);
+  LandmarkColumns& removed = of(landmark);
   list_columns(removed);
   for (float** column : columns_) pool_.give_back(*column);
   --generations_[removed.generation].landmarks;
@@ -58,7 +58,7 @@ void LandmarkStore::remove(int landmark) {
   landmarks_.pop_back();
 }
 
-void LandmarkStore::list_columns(Landmark& landmark) {
+void LandmarkStore::list_columns(LandmarkColumns& landmark) {
   columns_.clear();
   for (LandmarkMode& mode : landmark.modes) {
     auto& [a, b, aa, ab, bb] = mode.gaussian;
@@ -87,7 +87,7 @@ void LandmarkStore::touch(int landmark) {
   if (of(landmark).generation != present_) move_to_present(of(landmark));
 }
 
-void LandmarkStore::move_to_present(Landmark& landmark) {
+void LandmarkStore::move_to_present(LandmarkColumns& landmark) {
   Generation& past = generations_[landmark.generation];
   list_columns(landmark);
   gather_columns(past.places.data());
@@ -97,7 +97,7 @@ void LandmarkStore::move_to_present(Landmark& landmark) {
 }
 
 kernels::LandmarkView LandmarkStore::view(int landmark, const Eigen::Vector2d& origin_m) const {
-  const Landmark& seen = of(landmark);
+  const LandmarkColumns& seen = of(landmark);
   const Eigen::Vector2f offset = (seen.origin_m - origin_m).cast<float>();
   return {seen.form,     offset.x(),        offset.y(),       seen.anchor_x,
           seen.anchor_y, seen.modes.data(), seen.modes.size()};
@@ -112,7 +112,7 @@ void LandmarkStore::drop_mode(int landmark, std::size_t mode) {
 }
 
 void LandmarkStore::become_point(int landmark) {
-  Landmark& changed = of(landmark);
+  LandmarkColumns& changed = of(landmark);
   changed.form = LandmarkForm::kPoint;
   pool_.give_back(std::exchange(changed.anchor_x, nullptr));
   pool_.give_back(std::exchange(changed.anchor_y, nullptr));
@@ -163,13 +163,13 @@ std::int64_t LandmarkStore::first_to_fold() const {
 
 void LandmarkStore::fold_young_generations() {
   const std::int64_t since = first_to_fold();
-  for (Landmark& landmark : landmarks_)
+  for (LandmarkColumns& landmark : landmarks_)
     if (landmark.generation != present_ && generations_[landmark.generation].ended >= since)
       move_to_present(landmark);
 }
 
 PointGaussian LandmarkStore::at(int landmark, int particle) const {
-  const Landmark& seen = of(landmark);
+  const LandmarkColumns& seen = of(landmark);
   const auto own = static_cast<std::size_t>(particle);
   const auto place =
       seen.generation == present_ ? own : static_cast<std::size_t>(generations_[seen.generation].places[own]);

@@ -68,7 +68,7 @@ class LandmarkStore {
   static constexpr std::size_t kGenerations = 16;
   static constexpr std::size_t kColumnsAtOnce = 8;
 
-  struct Landmark {
+  struct LandmarkColumns {
     kernels::LandmarkForm form;
     Eigen::Vector2d origin_m;
     std::vector<kernels::LandmarkMode> modes;
@@ -86,14 +86,14 @@ class LandmarkStore {
     std::int64_t ended = 0;  ///< number of the resampling that ended it
   };
 
-  [[nodiscard]] const Landmark& of(int landmark) const {
+  [[nodiscard]] const LandmarkColumns& of(int landmark) const {
     return landmarks_[static_cast<std::size_t>(landmark)];
   }
-  [[nodiscard]] Landmark& of(int landmark) { return landmarks_[static_cast<std::size_t>(landmark)]; }
+  [[nodiscard]] LandmarkColumns& of(int landmark) { return landmarks_[static_cast<std::size_t>(landmark)]; }
   [[nodiscard]] std::vector<kernels::LandmarkMode> empty_modes();
-  void list_columns(Landmark& landmark);
+  void list_columns(LandmarkColumns& landmark);
   void gather_columns(const std::int32_t* places);
-  void move_to_present(Landmark& landmark);
+  void move_to_present(LandmarkColumns& landmark);
   void end_present_generation();
   [[nodiscard]] std::size_t free_generation() const;
   [[nodiscard]] std::int64_t first_to_fold() const;
@@ -101,7 +101,7 @@ class LandmarkStore {
 
   ParticleBlocks& blocks_;
   ColumnPool pool_;
-  std::vector<Landmark> landmarks_;
+  std::vector<LandmarkColumns> landmarks_;
   std::vector<std::vector<kernels::LandmarkMode>> spare_modes_;  // lists of removed landmarks, empty
   std::vector<Generation> generations_;
   AlignedArray<std::int32_t> ancestors_;

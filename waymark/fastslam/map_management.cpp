@@ -9,7 +9,7 @@ namespace waymark::fastslam {
 namespace {
 
 using kernels::LandmarkForm;
-using kernels::SeenLandmark;
+using kernels::LandmarkMeasurement;
 
 // Whether a landmark may become a point is asked at every so many observations of it.
 constexpr int kObservationsPerRefinement = 4;
@@ -27,13 +27,13 @@ void MapManagement::initialise(std::size_t index, Scan& scan, const ViewHistory&
   if (observation.id)
     initialise_named(observation, history, belief);
   else
-    scan.innovations[index].landmark = initialise_unnamed(observation, belief);
+    scan.innovations[index].landmark = initialise_without_identity(observation, belief);
 }
 
 void MapManagement::initialise_named(const Observation& observation, const ViewHistory& history,
                                      Belief& belief) {
-  const SeenLandmark z = seen_first(observation, belief);
-  const bool guess = start_ == LandmarkStart::kGuess && z.kind != kernels::SightingKind::kRangeBearing;
+  const LandmarkMeasurement z = seen_first(observation, belief);
+  const bool guess = start_ == LandmarkStart::kGuess && z.kind != kernels::ObservationKind::kRangeBearing;
   const FirstForm first = guess ? FirstForm{} : first_form(z, model_.sensor(), history);
   const int landmark = belief.add({.id = *observation.id}, first.form, first.modes, observation);
   if (guess)
@@ -46,7 +46,7 @@ void MapManagement::initialise_named(const Observation& observation, const ViewH
 }
 
 /// A point whose existence is in doubt.
-LandmarkId MapManagement::initialise_unnamed(const Observation& observation, Belief& belief) {
+LandmarkId MapManagement::initialise_without_identity(const Observation& observation, Belief& belief) {
   const LandmarkId id = belief.landmarks.unused_id();
   const int landmark = belief.add({.id = id, .identity = Identity::kUnknown, .existence = {}},
                                   LandmarkForm::kPoint, 1, observation);
@@ -58,11 +58,11 @@ LandmarkId MapManagement::initialise_unnamed(const Observation& observation, Bel
 
 void MapManagement::initialise_choices(Scan& scan, const ParticleMatcher& matcher, Belief& belief) {
   for (const Association::Choice& choice : matcher.choices()) {
-    if (choice.landmark != ExclusiveMatch::kNothing || room(belief) <= 0) continue;
+    if (choice.landmark != GreedyMatch::kNothing || room(belief) <= 0) continue;
     const std::span<const float> takers(choice.column, as_index(belief.particles.count()));
     if (std::ranges::none_of(takers, [](float t) { return t != 0.0F; })) continue;
-    const auto index = as_index(choice.sighting);
-    const LandmarkId id = initialise_unnamed(scan.observations[index], belief);
+    const auto index = as_index(choice.observation);
+    const LandmarkId id = initialise_without_identity(scan.observations[index], belief);
     if (scan.landmarks[index] == Scan::kNone) scan.innovations[index].landmark = id;
     float* const log_odds = belief.store.existence(belief.store.size() - 1);
     for (std::size_t i = 0; i < takers.size(); ++i)
@@ -71,15 +71,15 @@ void MapManagement::initialise_choices(Scan& scan, const ParticleMatcher& matche
 }
 
 /// After so long a way that nothing which lasts is left of an earlier error.
-SeenLandmark MapManagement::seen_first(const Observation& observation, const Belief& belief) const {
+LandmarkMeasurement MapManagement::seen_first(const Observation& observation, const Belief& belief) const {
   return model_.seen(observation, std::numeric_limits<double>::infinity(), belief.calibration.columns());
 }
 
-void MapManagement::place(int landmark, const SeenLandmark& seen, const kernels::FirstGuess& guess,
+void MapManagement::place(int landmark, const LandmarkMeasurement& seen, const kernels::FirstGuess& guess,
                           Belief& belief) const {
-  const kernels::Sighting sighting{seen, model_.mount(), belief.view(landmark)};
+  const kernels::LandmarkObservation landmark_observation{seen, model_.mount(), belief.view(landmark)};
   belief.run_with_sensors(model_.mount(), [&](const auto& sensors, const auto& range) {
-    kernels::place_landmark(sighting, guess, sensors, range);
+    kernels::place_landmark(landmark_observation, guess, sensors, range);
   });
 }
 
@@ -89,9 +89,9 @@ void MapManagement::miss(Belief& belief) const {
   for (const int k : unresolved_) {
     if (belief.store.modes(k) == 1 || belief.landmarks.is_claimed(k)) continue;
     belief.store.touch(k);
-    const kernels::Sighting sighting{{}, model_.mount(), belief.view(k)};
+    const kernels::LandmarkObservation landmark_observation{{}, model_.mount(), belief.view(k)};
     belief.run_with_sensors(model_.mount(), [&](const auto& sensors, const auto& range) {
-      kernels::miss_modes(sighting, detected, sensors, range);
+      kernels::miss_modes(landmark_observation, detected, sensors, range);
     });
   }
 }
@@ -109,7 +109,7 @@ void MapManagement::refine(Belief& belief) {
   std::erase_if(unresolved_, [&](int k) { return belief.store.form(k) == LandmarkForm::kPoint; });
 }
 
-void MapManagement::forget_ghosts(Belief& belief) {
+void MapManagement::delete_false_tracks(Belief& belief) {
   for (int k = belief.store.size() - 1; k >= 0; --k) {
     if (belief.records[as_index(k)].existence > 0.0 && !belief.landmarks.is_stale(k)) continue;
     belief.remove(k);

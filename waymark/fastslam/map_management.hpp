@@ -36,13 +36,14 @@ class MapManagement {
 
   /// Forgets landmarks that no particle believes in any more, and those that a single observation left
   /// behind. O(landmarks).
-  void forget_ghosts(Belief& belief);
+  void delete_false_tracks(Belief& belief);
 
  private:
   void initialise_named(const Observation& observation, const ViewHistory& history, Belief& belief);
-  [[nodiscard]] LandmarkId initialise_unnamed(const Observation& observation, Belief& belief);
-  [[nodiscard]] kernels::SeenLandmark seen_first(const Observation& observation, const Belief& belief) const;
-  void place(int landmark, const kernels::SeenLandmark& seen, const kernels::FirstGuess& guess,
+  [[nodiscard]] LandmarkId initialise_without_identity(const Observation& observation, Belief& belief);
+  [[nodiscard]] kernels::LandmarkMeasurement seen_first(const Observation& observation,
+                                                        const Belief& belief) const;
+  void place(int landmark, const kernels::LandmarkMeasurement& seen, const kernels::FirstGuess& guess,
              Belief& belief) const;
 
   SensorModel model_;

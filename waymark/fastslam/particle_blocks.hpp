@@ -22,7 +22,7 @@ class ParticleBlocks {
   explicit ParticleBlocks(int capacity, int threads = 1)
       : particles_(static_cast<std::size_t>(capacity)),
         partial_sums_((particles_ + kBlockSize - 1) / kBlockSize),
-        team_(threads) {}
+        thread_pool_(threads) {}
 
   [[nodiscard]] std::size_t particles() const { return particles_; }
   [[nodiscard]] std::size_t capacity() const { return partial_sums_.size() * kBlockSize; }
@@ -36,9 +36,9 @@ class ParticleBlocks {
       for (int block = first; block < last; ++block) job(begin(block), end(block));
     };
     if (blocks() < kBlocksWorthThreads) return run_blocks(0, blocks());
-    const int portion = std::max(1, blocks() / (kPortionsPerThread * team_.size()));
-    team_.run((blocks() + portion - 1) / portion,
-              [&](int k) { run_blocks(k * portion, std::min((k + 1) * portion, blocks())); });
+    const int portion = std::max(1, blocks() / (kPortionsPerThread * thread_pool_.size()));
+    thread_pool_.run((blocks() + portion - 1) / portion,
+                     [&](int k) { run_blocks(k * portion, std::min((k + 1) * portion, blocks())); });
   }
 
   /// The sum over all blocks of job(begin, end) -> std::array<double, Terms>.
@@ -88,7 +88,7 @@ class ParticleBlocks {
 
   std::size_t particles_;
   std::vector<PartialSum> partial_sums_;
-  ThreadTeam team_;
+  ThreadPool thread_pool_;
 };
 
 }  // namespace waymark::fastslam

@@ -10,7 +10,7 @@ namespace waymark::fastslam {
 namespace {
 
 // Particles of so little weight together do not keep a landmark.
-constexpr double kLeastSupport = 0.01;
+constexpr double kMinSupport = 0.01;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ void ParticleExistence::note_choices(const ParticleMatcher& matcher, Belief& bel
   const auto choices = matcher.choices();
   for (std::size_t c = 0; c < choices.size(); ++c) {
     const int landmark = choices[c].landmark;
-    if (landmark == ExclusiveMatch::kNothing) continue;
+    if (landmark == GreedyMatch::kNothing) continue;
     if (belief.landmarks.is_claimed(landmark)) continue;
     belief.landmarks.claim(landmark);
     for (std::size_t other = c + 1; other < choices.size(); ++other)
@@ -89,14 +89,14 @@ void ParticleExistence::note_observation(int landmark, const float* takers, Beli
     }
     for (std::size_t i = begin; i < end; ++i)
       if (takers == nullptr || takers[i] != 0.0F)
-        log_odds[i] = static_cast<float>(model_.after_sighting(static_cast<double>(before[i - begin])));
+        log_odds[i] = static_cast<float>(model_.after_observation(static_cast<double>(before[i - begin])));
   });
 }
 
 void ParticleExistence::note_support(int landmark, Belief& belief) const {
   const Support held =
       support(belief.store.existence(landmark), model_.confirmed(), belief.particles, belief.blocks);
-  belief.records[as_index(landmark)].existence = held.present < kLeastSupport ? 0.0 : held.probability;
+  belief.records[as_index(landmark)].existence = held.present < kMinSupport ? 0.0 : held.probability;
   if (held.confirmed > 0.5) belief.landmarks.existence(landmark).confirm();
 }
 

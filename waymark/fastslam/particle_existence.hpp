@@ -42,7 +42,7 @@ class ParticleExistence {
 
   AssociationModel model_;
   LandmarkSensor sensor_;
-  kernels::View view_;
+  kernels::SensorView view_;
   AlignedArray<float> nobody_;  // zeros
   std::vector<int> in_reach_;   // landmarks in doubt that this scan may have shown
 };

@@ -34,9 +34,9 @@ void report_choice(const Association::Choice& choice, Scan& scan, Belief& belief
   const std::span<const double> weights = belief.particles.weights();
   double weight = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) weight += choice.column[i] != 0.0F ? weights[i] : 0.0;
-  const auto index = as_index(choice.sighting);
+  const auto index = as_index(choice.observation);
   Innovation& innovation = scan.innovations[index];
-  if (choice.landmark == ExclusiveMatch::kNothing) {
+  if (choice.landmark == GreedyMatch::kNothing) {
     if (weight > 0.0 && innovation.outcome == Outcome::kUnidentified) innovation.outcome = Outcome::kAdded;
     return;
   }
@@ -53,25 +53,25 @@ ParticleMatcher::ParticleMatcher(const AssociationModel& model, const SensorMode
                                  ParticleBlocks& blocks)
     : association_(model, blocks), model_(sensor) {}
 
-bool ParticleMatcher::any_contested() const {
-  return std::ranges::any_of(contested_, [](char c) { return c != 0; });
+bool ParticleMatcher::any_ambiguous() const {
+  return std::ranges::any_of(ambiguous_, [](char c) { return c != 0; });
 }
 
 void ParticleMatcher::match(Scan& scan, const InnovationGate& gate, int room, Belief& belief) {
   association_.begin_split();
-  contested_.resize(scan.size());
+  ambiguous_.resize(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i)
-    contested_[i] = scan.is(i, Outcome::kUnidentified) &&
+    ambiguous_[i] = scan.is(i, Outcome::kUnidentified) &&
                     std::holds_alternative<RangeBearing>(scan.observations[i].value);
   // Existence is judged by what is near, whether anything is to be decided or not.
-  if (!any_contested()) return association_.index(belief.store, heaviest(belief.particles.weights()));
+  if (!any_ambiguous()) return association_.index(belief.store, heaviest(belief.particles.weights()));
   belief.load_sample();
   decide(scan, gate, room, belief);
 }
 
-std::span<const std::size_t> ParticleMatcher::match_contested(Scan& scan, const InnovationGate& gate,
+std::span<const std::size_t> ParticleMatcher::match_ambiguous(Scan& scan, const InnovationGate& gate,
                                                               int room, Belief& belief) {
-  if (!any_contested()) return {};
+  if (!any_ambiguous()) return {};
   decide(scan, gate, room, belief);
   return matched_;
 }
@@ -83,7 +83,7 @@ void ParticleMatcher::decide(Scan& scan, const InnovationGate& gate, int room, B
   const Pose2 T_world_sensor =
       belief.particles.pose(particle) * belief.pending.increment * model_.sensor().T_robot_sensor();
   for (std::size_t i = 0; i < scan.size(); ++i)
-    if (is_contested(i)) find_candidates(i, scan, gate, T_world_sensor, belief);
+    if (is_ambiguous(i)) find_candidates(i, scan, gate, T_world_sensor, belief);
   association_.solve(static_cast<int>(scan.size()), belief.store.size());
   take_decisions(scan, room, belief);
 }
@@ -108,10 +108,10 @@ void ParticleMatcher::find_candidates(std::size_t index, const Scan& scan, const
 void ParticleMatcher::take_decisions(Scan& scan, int room, Belief& belief) {
   matched_.clear();
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!is_contested(i) || association_.match().is_contested(static_cast<int>(i))) continue;
-    contested_[i] = 0;
+    if (!is_ambiguous(i) || association_.match().is_ambiguous(static_cast<int>(i))) continue;
+    ambiguous_[i] = 0;
     const int landmark = association_.match().landmark_of(static_cast<int>(i));
-    if (landmark != ExclusiveMatch::kNothing) {
+    if (landmark != GreedyMatch::kNothing) {
       scan.match(i, landmark, belief.landmarks);
       matched_.push_back(i);
     } else {
@@ -121,9 +121,9 @@ void ParticleMatcher::take_decisions(Scan& scan, int room, Belief& belief) {
 }
 
 void ParticleMatcher::split(Scan& scan, ScanUpdate& update, Belief& belief) {
-  if (!any_contested()) return;
+  if (!any_ambiguous()) return;
   for (std::size_t i = 0; i < scan.size(); ++i)
-    if (is_contested(i)) offer_choices(i, scan, belief);
+    if (is_ambiguous(i)) offer_choices(i, scan, belief);
   association_.split(belief.store);
   accept_choices(scan, update, belief);
   for (const Association::Choice& choice : choices()) report_choice(choice, scan, belief);
@@ -135,17 +135,17 @@ void ParticleMatcher::offer_choices(std::size_t index, const Scan& scan, Belief&
   const Observation& observation = scan.observations[index];
   if (association_.offer_none(i, range_m(observation)) == nullptr) return;
   for (const ScoredPair& pair : association_.match().pairs()) {
-    if (pair.sighting != i || belief.landmarks.is_claimed(pair.landmark)) continue;
+    if (pair.observation != i || belief.landmarks.is_claimed(pair.landmark)) continue;
     const double existence = belief.records[as_index(pair.landmark)].existence;
     const auto* choice = association_.offer(i, pair.landmark, range_m(observation), existence);
     if (choice == nullptr) continue;
     belief.store.touch(pair.landmark);
-    list_likelihoods(model_.sighting(observation, pair.landmark, belief), choice->column, belief);
+    list_likelihoods(model_.observation(observation, pair.landmark, belief), choice->column, belief);
   }
 }
 
-void ParticleMatcher::list_likelihoods(const kernels::Sighting& sighting, float* column,
-                                       Belief& belief) const {
+void ParticleMatcher::list_likelihoods(const kernels::LandmarkObservation& landmark_observation,
+                                       float* column, Belief& belief) const {
   const kernels::Increment increment = increment_of(belief.pending);
   const Eigen::Vector2d origin_m = belief.origin_m();
   belief.blocks.run([&](std::size_t begin, std::size_t end) {
@@ -153,30 +153,31 @@ void ParticleMatcher::list_likelihoods(const kernels::Sighting& sighting, float*
     const kernels::ParticleRange range{begin, end - begin};
     kernels::load_poses(belief.particles.world(begin), origin_m.x(), origin_m.y(), scratch.robots(),
                         range.count);
-    kernels::list_log_likelihoods(sighting, increment, scratch.robots(), column + begin, range);
+    kernels::list_log_likelihoods(landmark_observation, increment, scratch.robots(), column + begin, range);
   });
 }
 
 /// All choices of one observation weigh with the same power, or the power and not the likelihood would
 /// choose.
-double ParticleMatcher::power(int sighting, const ScanUpdate& update, const Belief& belief) const {
+double ParticleMatcher::power(int landmark_observation, const ScanUpdate& update,
+                              const Belief& belief) const {
   double least = 1.0;
   for (const Association::Choice& choice : choices())
-    if (choice.sighting == sighting && choice.landmark != ExclusiveMatch::kNothing)
+    if (choice.observation == landmark_observation && choice.landmark != GreedyMatch::kNothing)
       least = std::min(least, update.power(choice.landmark, belief));
   return least;
 }
 
 void ParticleMatcher::accept_choices(const Scan& scan, ScanUpdate& update, Belief& belief) const {
   for (const Association::Choice& choice : choices()) {
-    const double e = power(choice.sighting, update, belief);
+    const double e = power(choice.observation, update, belief);
     const double constant = e * Association::log_weight(choice);
     const std::span<double> log_weights = belief.particles.log_weights();
     for (std::size_t i = 0; i < log_weights.size(); ++i)
       log_weights[i] += choice.column[i] != 0.0F ? constant : 0.0;
-    if (choice.landmark == ExclusiveMatch::kNothing) continue;
-    const Observation& observation = scan.observations[as_index(choice.sighting)];
-    update.accept_by(choice.column, model_.sighting(observation, choice.landmark, belief), e);
+    if (choice.landmark == GreedyMatch::kNothing) continue;
+    const Observation& observation = scan.observations[as_index(choice.observation)];
+    update.accept_by(choice.column, model_.observation(observation, choice.landmark, belief), e);
   }
 }
 

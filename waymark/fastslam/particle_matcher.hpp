@@ -16,7 +16,7 @@
 namespace waymark::fastslam {
 
 /// Matches the observations of a scan that have no identity. The set decides what it can, once before and
-/// once after clear observations have moved it; what it cannot is contested, and then each particle decides
+/// once after clear observations have moved it; what it cannot is ambiguous, and then each particle decides
 /// for itself. See Association for the scheme.
 class ParticleMatcher {
  public:
@@ -27,17 +27,17 @@ class ParticleMatcher {
   /// landmarks that nothing else claimed, or of one of the `room` new ones that the map can hold.
   void match(Scan& scan, const InnovationGate& gate, int room, Belief& belief);
 
-  /// The second decision, about what is contested. Which observations it matched, in their order, not yet
+  /// The second decision, about what is ambiguous. Which observations it matched, in their order, not yet
   /// gated; valid until the next decision. Needs Belief::load_sample().
-  [[nodiscard]] std::span<const std::size_t> match_contested(Scan& scan, const InnovationGate& gate, int room,
+  [[nodiscard]] std::span<const std::size_t> match_ambiguous(Scan& scan, const InnovationGate& gate, int room,
                                                              Belief& belief);
 
-  /// Each particle decides about what is contested still. Its weight takes the score of what it chose, and
+  /// Each particle decides about what is ambiguous still. Its weight takes the score of what it chose, and
   /// the update what it is to take in. The scan is told the choice of the majority.
   void split(Scan& scan, ScanUpdate& update, Belief& belief);
 
-  [[nodiscard]] bool is_contested(std::size_t index) const { return contested_[index] != 0; }
-  [[nodiscard]] bool any_contested() const;
+  [[nodiscard]] bool is_ambiguous(std::size_t index) const { return ambiguous_[index] != 0; }
+  [[nodiscard]] bool any_ambiguous() const;
   /// Between which the particles split in this scan.
   [[nodiscard]] std::span<const Association::Choice> choices() const { return association_.choices(); }
 
@@ -56,13 +56,14 @@ class ParticleMatcher {
                        const Pose2& T_world_sensor, Belief& belief);
   void take_decisions(Scan& scan, int room, Belief& belief);
   void offer_choices(std::size_t index, const Scan& scan, Belief& belief);
-  void list_likelihoods(const kernels::Sighting& sighting, float* column, Belief& belief) const;
+  void list_likelihoods(const kernels::LandmarkObservation& landmark_observation, float* column,
+                        Belief& belief) const;
   void accept_choices(const Scan& scan, ScanUpdate& update, Belief& belief) const;
-  [[nodiscard]] double power(int sighting, const ScanUpdate& update, const Belief& belief) const;
+  [[nodiscard]] double power(int landmark_observation, const ScanUpdate& update, const Belief& belief) const;
 
   Association association_;
   SensorModel model_;
-  std::vector<char> contested_;       // observations that the set has not decided on
+  std::vector<char> ambiguous_;       // observations that the set has not decided on
   std::vector<std::size_t> matched_;  // by the last decision
   std::int64_t splits_ = 0;
 };

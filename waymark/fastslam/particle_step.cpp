@@ -22,7 +22,7 @@ void draw_block(Particles& particles, const kernels::Increment& increment, const
                       particles.moving(range.begin), range.count);
 }
 
-/// Columns as they were, to be put back where a sighting is not for a particle.
+/// Columns as they were, to be put back where an observation is not for a particle.
 class Backup {
  public:
   Backup(std::span<float* const> columns, double* log_weight, std::size_t count)
@@ -39,46 +39,46 @@ class Backup {
   }
 
  private:
-  static constexpr std::size_t kMostColumns = 9;
+  static constexpr std::size_t kMaxColumns = 9;
   std::span<float* const> columns_;
   double* log_weight_;
   std::size_t count_;
-  float values_[kMostColumns][ParticleBlocks::kBlockSize];
+  float values_[kMaxColumns][ParticleBlocks::kBlockSize];
   double log_weights_[ParticleBlocks::kBlockSize];
 };
 
-/// Runs `job` for those that take the sighting; others keep their entries of the columns.
+/// Runs `job` for those that take the observation; others keep their entries of the columns.
 template <class Job>
-void run_for_takers(const AcceptedSighting& sighting, std::span<float* const> columns, double* log_weight,
-                    ParticleRange range, const Job& job) {
-  if (sighting.takers == nullptr) return job();
+void run_for_takers(const AcceptedObservation& observation, std::span<float* const> columns,
+                    double* log_weight, ParticleRange range, const Job& job) {
+  if (observation.takers == nullptr) return job();
   const Backup backup(columns, log_weight, range.count);
   job();
-  backup.restore_others(sighting.takers + range.begin);
+  backup.restore_others(observation.takers + range.begin);
 }
 
-void condition_block(const AcceptedSighting& each, const kernels::Increment& increment, double* log_weight,
+void condition_block(const AcceptedObservation& each, const kernels::Increment& increment, double* log_weight,
                      BlockScratch& scratch, ParticleRange range) {
   const kernels::IncrementColumns d = scratch.increments();
   const std::array columns{d.x, d.y, d.t, d.xx, d.xy, d.xt, d.yy, d.yt, d.tt};
   run_for_takers(each, columns, log_weight, range, [&] {
-    kernels::condition_increments(each.sighting, increment, scratch.robots(), each.evidence, d, log_weight,
+    kernels::condition_increments(each.observation, increment, scratch.robots(), each.exponent, d, log_weight,
                                   range);
   });
 }
 
-void update_block(std::span<const AcceptedSighting> sightings, double* log_weight, BlockScratch& scratch,
-                  ParticleRange range) {
+void update_block(std::span<const AcceptedObservation> observations, double* log_weight,
+                  BlockScratch& scratch, ParticleRange range) {
   const kernels::PoseColumns sensors = scratch.sensors();
-  for (const AcceptedSighting& each : sightings) {
-    // Most sightings of a scan are made from one place.
-    if (&each == sightings.data() || each.sighting.mount != (&each - 1)->sighting.mount)
-      kernels::place_sensors(scratch.robots(), each.sighting.mount, sensors, range.count);
-    const auto& [a, b, aa, ab, bb] = each.sighting.landmark.modes->gaussian;
+  for (const AcceptedObservation& each : observations) {
+    // Most observations of a scan are made from one place.
+    if (&each == observations.data() || each.observation.mount != (&each - 1)->observation.mount)
+      kernels::place_sensors(scratch.robots(), each.observation.mount, sensors, range.count);
+    const auto& [a, b, aa, ab, bb] = each.observation.landmark.modes->gaussian;
     const std::array columns{a + range.begin, b + range.begin, aa + range.begin, ab + range.begin,
                              bb + range.begin};
     run_for_takers(each, columns, log_weight, range, [&] {
-      kernels::update_landmark(each.sighting, sensors, each.evidence,
+      kernels::update_landmark(each.observation, sensors, each.exponent,
                                each.shapes_motion ? nullptr : log_weight, range);
     });
   }
@@ -100,19 +100,19 @@ kernels::Increment increment_of(const Motion& motion) {
 }
 
 void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& origin_m,
-          std::span<const AcceptedSighting> sightings, const StreamKey& key, ParticleBlocks& blocks) {
+          std::span<const AcceptedObservation> observations, const StreamKey& key, ParticleBlocks& blocks) {
   const kernels::Increment increment = increment_of(motion);
-  const bool moves = !is_still(motion);
+  const bool enkf_updates = !is_still(motion);
   blocks.run([&](std::size_t begin, std::size_t end) {
     BlockScratch scratch;
     const ParticleRange range{begin, end - begin};
     double* const log_weight = particles.log_weights().data() + begin;
     kernels::load_poses(particles.world(begin), origin_m.x(), origin_m.y(), scratch.robots(), range.count);
     kernels::fill_increments(increment, scratch.increments(), range.count);
-    for (const AcceptedSighting& each : sightings)
+    for (const AcceptedObservation& each : observations)
       if (each.shapes_motion) condition_block(each, increment, log_weight, scratch, range);
-    if (moves) draw_block(particles, increment, key, scratch, range);  // Francisco (3)
-    update_block(sightings, log_weight, scratch, range);               // Francisco (4)
+    if (enkf_updates) draw_block(particles, increment, key, scratch, range);  // Francisco (3)
+    update_block(observations, log_weight, scratch, range);                   // Francisco (4)
   });
 }
 

@@ -9,7 +9,7 @@
 #include "waymark/core/random.hpp"
 #include "waymark/fastslam/particle_blocks.hpp"
 #include "waymark/fastslam/particles.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 
 namespace waymark::fastslam {
 
@@ -20,24 +20,24 @@ struct StreamKey {
   std::uint64_t step = 0;
 };
 
-/// A sighting that particles take in.
-struct AcceptedSighting {
-  kernels::Sighting sighting;
-  double evidence = 1.0;  ///< the power of its likelihood that the weights take
+/// An observation that particles take in.
+struct AcceptedObservation {
+  kernels::LandmarkObservation observation;
+  double exponent = 1.0;  ///< the power of its likelihood that the weights take
   bool shapes_motion =
       false;  ///< particles draw their motion knowing it; else they are weighed after the draw
-  const float* takers = nullptr;  ///< the sighting is for particles with 1 here, not for those with 0; null:
-                                  ///< it is for all
+  const float* takers = nullptr;  ///< the observation is for particles with 1 here, not for those with 0;
+                                  ///< null: it is for all
 };
 
 /// One step of all particles, block by block, each block with all that it does while it is in the cache.
-/// Every particle takes the motion as N(mu, P) in its own frame, lets the sightings that shape it in one
+/// Every particle takes the motion as N(mu, P) in its own frame, lets the observations that shape it in one
 /// after the other (FastSLAM 2.0, Montemerlo et al. 2003; without any it is FastSLAM 1.0), draws where it
 /// goes, and updates the landmarks seen from there. Weights collect in the particles' log weights.
 ///
-/// Positions in `sightings` are counted from `origin_m`. Allocates nothing.
+/// Positions in `observations` are counted from `origin_m`. Allocates nothing.
 void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& origin_m,
-          std::span<const AcceptedSighting> sightings, const StreamKey& key, ParticleBlocks& blocks);
+          std::span<const AcceptedObservation> observations, const StreamKey& key, ParticleBlocks& blocks);
 
 [[nodiscard]] kernels::Increment increment_of(const Motion& motion);
 

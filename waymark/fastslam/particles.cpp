@@ -13,12 +13,12 @@ namespace {
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 // Beta is halved until N_eff is large enough, then bisected between the last two values.
-constexpr int kMostHalvings = 100;
+constexpr int kMaxHalvings = 100;
 constexpr int kBisections = 8;
 
 // A mean heading so far from the one that differences were taken to is taken again, from itself.
 constexpr double kLargestShift_rad = 0.1;
-constexpr int kMostShifts = 8;
+constexpr int kMaxShifts = 8;
 
 std::size_t padded(int count) { return kernels::round_up_particles(static_cast<std::size_t>(count)); }
 
@@ -106,13 +106,11 @@ bool normalise_weights(Particles& p, ParticleBlocks& blocks) {
   return true;
 }
 
-void temper_weights(Particles& p, double least_effective, ParticleBlocks& blocks) {
-  const auto is_flat = [&](double beta) {
-    return effective_particles_at(beta, p, blocks) >= least_effective;
-  };
+void temper_weights(Particles& p, double min_effective, ParticleBlocks& blocks) {
+  const auto is_flat = [&](double beta) { return effective_particles_at(beta, p, blocks) >= min_effective; };
   if (is_flat(1.0)) return;
   double low = 0.5;
-  for (int i = 0; i < kMostHalvings && !is_flat(low); ++i) low *= 0.5;
+  for (int i = 0; i < kMaxHalvings && !is_flat(low); ++i) low *= 0.5;
   double high = 2.0 * low;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
@@ -125,7 +123,7 @@ void temper_weights(Particles& p, double least_effective, ParticleBlocks& blocks
 PoseEstimate estimate(const Particles& p, ParticleBlocks& blocks) {
   Pose2 reference = p.pose(0);
   kernels::PoseSums m = sum_about(reference, p, blocks);
-  for (int i = 0; i < kMostShifts && std::abs(m[3]) > kLargestShift_rad; ++i) {
+  for (int i = 0; i < kMaxShifts && std::abs(m[3]) > kLargestShift_rad; ++i) {
     reference.theta_rad += m[3];
     m = sum_about(reference, p, blocks);
   }

@@ -59,9 +59,9 @@ class Particles {
 /// False, and all weights equal, if that leaves none.
 [[nodiscard]] bool normalise_weights(Particles& particles, ParticleBlocks& blocks);
 
-/// Flattens normalised weights to w^beta with the largest beta <= 1 at which N_eff is `least_effective`,
+/// Flattens normalised weights to w^beta with the largest beta <= 1 at which N_eff is `min_effective`,
 /// which must be below the number of particles that weigh anything. Does nothing if N_eff is larger already.
-void temper_weights(Particles& particles, double least_effective, ParticleBlocks& blocks);
+void temper_weights(Particles& particles, double min_effective, ParticleBlocks& blocks);
 
 /// Weighted mean, circular for the heading, and covariance about it.
 [[nodiscard]] PoseEstimate estimate(const Particles& particles, ParticleBlocks& blocks);

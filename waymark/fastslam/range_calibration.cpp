@@ -9,7 +9,7 @@ namespace waymark::fastslam {
 namespace {
 
 // A scale is not believed to be below this, whatever a move says.
-constexpr float kLeastScale = 0.1F;
+constexpr float kMinScale = 0.1F;
 
 // Far from the streams of particles that start somewhere else: see FastSlam's constructor.
 constexpr std::uint64_t kStep = std::uint64_t{1} << 40;
@@ -49,7 +49,7 @@ kernels::RangeErrors RangeCalibration::columns() const {
 
 void RangeCalibration::refresh() {
   for (std::size_t i = 0; i < scale_.size(); ++i) {
-    scale_[i] = std::max(scale_[i], kLeastScale);
+    scale_[i] = std::max(scale_[i], kMinScale);
     factor_[i] = 1.0F / scale_[i];
   }
 }

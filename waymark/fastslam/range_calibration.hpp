@@ -17,7 +17,7 @@ struct Spread {
 };
 
 /// Scale and offset that all ranges have in common, each particle with its own: reported = scale * range +
-/// offset. Drawn once; what the sightings say of them, resampling and moves tell.
+/// offset. Drawn once; what the observations say of them, resampling and moves tell.
 class RangeCalibration {
  public:
   /// One for `blocks`, which must outlive it, drawn as unsure as the sensor's shared errors of range; without

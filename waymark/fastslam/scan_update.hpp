@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "waymark/fastslam/belief.hpp"
-#include "waymark/fastslam/ensemble_move.hpp"
+#include "waymark/fastslam/enkf_update.hpp"
 #include "waymark/fastslam/fast_slam_options.hpp"
 #include "waymark/fastslam/information_weight.hpp"
 #include "waymark/fastslam/particle_step.hpp"
@@ -14,7 +14,7 @@ namespace waymark::fastslam {
 
 /// Collects what the particles take in at their next step, and decides what each observation does to them: it
 /// moves them or weighs them. One of a landmark that comes back, where particles disagree on what they see,
-/// moves them (EnsembleMove), and then does not weigh them; from a robot that has stood since the last one
+/// moves them (EnkfUpdate), and then does not weigh them; from a robot that has stood since the last one
 /// none does. All shape the motion in FastSLAM 2.0 and update their landmarks.
 class ScanUpdate {
  public:
@@ -30,27 +30,27 @@ class ScanUpdate {
 
   /// Takes in an observation with these moments of its innovation, the power of its likelihood given. May
   /// move the particles at once, O(N landmarks): then what was compared before is to be compared again.
-  void accept(const kernels::Sighting& sighting, int landmark, double power, const InnovationMoments& moments,
-              Belief& belief);
-  /// The same for some of the particles only, which it never moves: see AcceptedSighting::takers.
-  void accept_by(const float* takers, const kernels::Sighting& sighting, double power);
+  void accept(const kernels::LandmarkObservation& observation, int landmark, double power,
+              const InnovationMoments& moments, Belief& belief);
+  /// The same for some of the particles only, which it never moves: see AcceptedObservation::takers.
+  void accept_by(const float* takers, const kernels::LandmarkObservation& observation, double power);
 
   /// Valid until the next begin().
-  [[nodiscard]] std::span<const AcceptedSighting> accepted() const { return accepted_; }
+  [[nodiscard]] std::span<const AcceptedObservation> accepted() const { return accepted_; }
 
   /// How often an observation moved the particles instead of weighing them.
-  [[nodiscard]] std::int64_t moves() const { return moves_; }
+  [[nodiscard]] std::int64_t enkf_updates() const { return enkf_updates_; }
 
  private:
-  [[nodiscard]] bool move_by(const kernels::Sighting& sighting, double power, InnovationMoments moments,
-                             Belief& belief);
+  [[nodiscard]] bool update_by_enkf(const kernels::LandmarkObservation& observation, double power,
+                                    InnovationMoments moments, Belief& belief);
 
   InformationWeight weight_;
-  EnsembleMove move_;
+  EnkfUpdate enkf_;
   double move_above_;
   bool shapes_motion_;
-  std::vector<AcceptedSighting> accepted_;
-  std::int64_t moves_ = 0;
+  std::vector<AcceptedObservation> accepted_;
+  std::int64_t enkf_updates_ = 0;
 };
 
 }  // namespace waymark::fastslam

@@ -5,16 +5,16 @@
 #include "waymark/core/observation.hpp"
 #include "waymark/fastslam/belief.hpp"
 #include "waymark/kernels/particle_existence.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 #include "waymark/models/landmark_sensor.hpp"
 
 namespace waymark::fastslam {
 
 /// The kind of a measurement; nothing for one that particles cannot use.
-[[nodiscard]] std::optional<kernels::SightingKind> kind_of(const Measurement& value);
+[[nodiscard]] std::optional<kernels::ObservationKind> kind_of(const Measurement& value);
 
 /// Of how many numbers such a measurement is.
-[[nodiscard]] int dimension(kernels::SightingKind kind);
+[[nodiscard]] int dimension(kernels::ObservationKind kind);
 
 /// Whether an observation brings what must be there before anything else is asked: a kind that particles can
 /// use, numbers that are finite as floats, and noise.
@@ -29,19 +29,19 @@ class SensorModel {
   [[nodiscard]] const LandmarkSensor& sensor() const { return sensor_; }
   [[nodiscard]] const kernels::SensorMount& mount() const { return mount_; }
   /// What the sensor sees for certain.
-  [[nodiscard]] kernels::View view() const;
+  [[nodiscard]] kernels::SensorView view() const;
   /// By how many times the variance of an observation is larger than it says.
   [[nodiscard]] double inflation() const { return inflation_; }
 
   /// A usable observation, as unsure as it is after such a way since the last one of the same landmark. The
   /// particles have no states for errors that outlive an observation: they count by what it brings anew, see
-  /// lasting_variance_factor().
-  [[nodiscard]] kernels::SeenLandmark seen(const Observation& observation, double way_since_m,
-                                           const kernels::RangeErrors& range_errors) const;
+  /// bias_variance_factor().
+  [[nodiscard]] kernels::LandmarkMeasurement seen(const Observation& observation, double travelled_since_m,
+                                                  const kernels::RangeErrors& range_errors) const;
 
   /// The same, of a touched landmark. Valid as LandmarkStore::view() is.
-  [[nodiscard]] kernels::Sighting sighting(const Observation& observation, int landmark,
-                                           const Belief& belief) const;
+  [[nodiscard]] kernels::LandmarkObservation landmark_observation(const Observation& observation,
+                                                                  int landmark, const Belief& belief) const;
 
  private:
   LandmarkSensor sensor_;

@@ -8,15 +8,15 @@ namespace {
 // A landmark that leaves the view does so by an edge, not by the limits of range, if it is so many standard
 // deviations off those; and it must not cross a wide angle between two scans.
 constexpr double kLimitMargin = 3.0;
-constexpr double kMostEdgeTurn_rad = 0.2;
+constexpr double kMaxEdgeTurn_rad = 0.2;
 constexpr double kMissedByChance = 1e-3;
-constexpr double kMostMissed = 0.25;
+constexpr double kMaxMissed = 0.25;
 
 /// In so many scans a landmark in view is seen at least once, but for one time in a thousand; 0 where that
 /// would take too many, or there are no edges.
-std::size_t scans_to_tell_an_edge(const LandmarkSensor& sensor) {
+std::size_t scans_to_detect_an_edge(const LandmarkSensor& sensor) {
   const double missed = 1.0 - sensor.detection_probability;
-  if (missed > kMostMissed || sensor.field_of_view_deg >= 360.0) return 0;
+  if (missed > kMaxMissed || sensor.field_of_view_deg >= 360.0) return 0;
   return static_cast<std::size_t>(std::ceil(std::log(kMissedByChance) / std::log(missed)));
 }
 
@@ -32,7 +32,7 @@ kernels::SensorMount placed(kernels::SensorMount mount, const Pose2& T_now_senso
 }  // namespace
 
 ViewEdges::ViewEdges(const SensorModel& model)
-    : model_(model), scans_to_tell_(scans_to_tell_an_edge(model.sensor())) {}
+    : model_(model), scans_to_tell_(scans_to_detect_an_edge(model.sensor())) {}
 
 std::span<const ViewEdge> ViewEdges::find(const Scan& scan, const ViewHistory& history,
                                           const Belief& belief) {
@@ -61,13 +61,13 @@ void ViewEdges::add(int landmark, double range_m, std::size_t age, const ViewHis
   const double margin_m = kLimitMargin * sensor.range_sigma_m + change.position().norm();
   if (range_m < sensor.min_range_m + margin_m || range_m > sensor.max_range_m - margin_m) return;
   const double turned_rad = std::abs(change.theta_rad) + change.position().norm() / range_m;
-  if (turned_rad > kMostEdgeTurn_rad) return;
+  if (turned_rad > kMaxEdgeTurn_rad) return;
   const Pose2 half{0.5 * change.x_m, 0.5 * change.y_m, 0.5 * change.theta_rad};
   const double sigma_rad = std::hypot(to_radians(sensor.bearing_sigma_deg), turned_rad / std::sqrt(12.0));
   ViewEdge edge{landmark, {}};
-  edge.sighting.seen.kind = kernels::SightingKind::kViewEdge;
-  edge.sighting.seen.R_bb = static_cast<float>(sigma_rad * sigma_rad);
-  edge.sighting.mount = placed(model_.mount(), T_now_before * half * sensor.T_robot_sensor());
+  edge.observation.seen.kind = kernels::ObservationKind::kViewEdge;
+  edge.observation.seen.R_bb = static_cast<float>(sigma_rad * sigma_rad);
+  edge.observation.mount = placed(model_.mount(), T_now_before * half * sensor.T_robot_sensor());
   edges_.push_back(edge);
 }
 

@@ -16,7 +16,7 @@ namespace waymark::fastslam {
 /// the view from where the sensor was then, without the landmark's view.
 struct ViewEdge {
   int landmark = 0;
-  kernels::Sighting sighting;
+  kernels::LandmarkObservation observation;
 };
 
 /// Finds landmarks that crossed an edge of the field of view: those that were seen by their range alone and

@@ -17,7 +17,7 @@ constexpr std::size_t round_up_particles(std::size_t count) {
   return (count + kParticleLanes - 1) / kParticleLanes * kParticleLanes;
 }
 
-/// Poses: position, and the heading as cosine and sine, so that no sighting needs trigonometry.
+/// Poses: position, and the heading as cosine and sine, so that no observation needs trigonometry.
 struct PoseColumns {
   float* x = nullptr;
   float* y = nullptr;
@@ -80,7 +80,7 @@ struct LandmarkMode {
 inline constexpr float kDeadMode = -1e30F;
 inline constexpr std::size_t kMaxModes = 32;
 
-/// A landmark of all particles. Anchors are where each particle's sensor stood at the first sighting.
+/// A landmark of all particles. Anchors are where each particle's sensor stood at the first observation.
 struct LandmarkView {
   LandmarkForm form = LandmarkForm::kPoint;
   float offset_x = 0.0F;  ///< the landmark's origin, seen from that of the poses
@@ -91,7 +91,7 @@ struct LandmarkView {
   std::size_t mode_count = 1;
 };
 
-enum class SightingKind : std::uint8_t {
+enum class ObservationKind : std::uint8_t {
   kRangeBearing,
   kRange,
   kBearing,
@@ -106,8 +106,8 @@ struct RangeErrors {
 };
 
 /// What was seen, and how unsure that is; but for errors of range the same for every particle.
-struct SeenLandmark {
-  SightingKind kind = SightingKind::kRangeBearing;
+struct LandmarkMeasurement {
+  ObservationKind kind = ObservationKind::kRangeBearing;
   float range = 0.0F;
   float cos_bearing = 1.0F;  ///< direction in the robot frame, the sensor's yaw included
   float sin_bearing = 0.0F;
@@ -123,8 +123,8 @@ struct SensorMount {
   float y = 0.0F;
   float cos_yaw = 1.0F;
   float sin_yaw = 0.0F;
-  float half_view = 4.0F;   ///< half the field of view, rad; pi or more: it sees all round
-  float least_rho = 1e-4F;  ///< one over the largest range, 1/m
+  float half_view = 4.0F;  ///< half the field of view, rad; pi or more: it sees all round
+  float min_rho = 1e-4F;   ///< one over the largest range, 1/m
   float least_range = 0.0F;
 
   bool operator==(const SensorMount&) const = default;

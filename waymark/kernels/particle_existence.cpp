@@ -17,10 +17,10 @@ constexpr float kAllRound = 3.14F;
 
 // How far inside the view a landmark is expected, the nearest edge counting: negative is outside or unsure.
 template <class T>
-HWY_INLINE T depth_inside(const View& view, const Sensor<T>& from, const Gaussian2<T>& m, T ox, T oy) {
+HWY_INLINE T depth_inside(const SensorView& view, const Sensor<T>& from, const Gaussian2<T>& m, T ox, T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T zero = T(0.0F);
-  const RayCovariance<T> S = along_ray(Look2<T>{ray, zero, zero, zero, zero, zero}, m);
+  const RayCovariance<T> S = along_ray(Measured2<T>{ray, zero, zero, zero, zero, zero}, m);
   const T margin_r = T(kDeviations) * square_root(S.aa + T(view.range_var));
   const T far = T(view.max_range) - ray.r - margin_r;
   const T near = ray.r - margin_r - T(view.min_range);
@@ -35,7 +35,7 @@ HWY_INLINE T depth_inside(const View& view, const Sensor<T>& from, const Gaussia
 }
 
 template <class T>
-HWY_INLINE void miss_as(const LandmarkView& landmark, const PoseColumns& sensors, const View& view,
+HWY_INLINE void miss_as(const LandmarkView& landmark, const PoseColumns& sensors, const SensorView& view,
                         float change, float* log_odds, ParticleRange range) {
   const T zero = T(0.0F);
   for (std::size_t k = 0; k < range.count; k += width_of<T>()) {
@@ -50,8 +50,8 @@ HWY_INLINE void miss_as(const LandmarkView& landmark, const PoseColumns& sensors
   }
 }
 
-void miss_lanes(const LandmarkView& landmark, const PoseColumns& sensors, const View& view, float change,
-                float* log_odds, ParticleRange range) {
+void miss_lanes(const LandmarkView& landmark, const PoseColumns& sensors, const SensorView& view,
+                float change, float* log_odds, ParticleRange range) {
   miss_as<Lanes>(landmark, sensors, view, change, log_odds, range);
 }
 
@@ -63,15 +63,15 @@ namespace waymark::kernels {
 
 HWY_EXPORT(miss_lanes);
 
-void miss_landmark(const LandmarkView& landmark, const PoseColumns& sensors, const View& view, float change,
-                   float* log_odds, ParticleRange range) {
+void miss_landmark(const LandmarkView& landmark, const PoseColumns& sensors, const SensorView& view,
+                   float change, float* log_odds, ParticleRange range) {
   HWY_DYNAMIC_DISPATCH(miss_lanes)(landmark, sensors, view, change, log_odds, range);
 }
 
 namespace reference {
 
-void miss_landmark(const LandmarkView& landmark, const PoseColumns& sensors, const View& view, float change,
-                   float* log_odds, ParticleRange range) {
+void miss_landmark(const LandmarkView& landmark, const PoseColumns& sensors, const SensorView& view,
+                   float change, float* log_odds, ParticleRange range) {
   HWY_NAMESPACE::miss_as<double>(landmark, sensors, view, change, log_odds, range);
 }
 

@@ -12,7 +12,7 @@
 
 #include "waymark/kernels/lanes-inl.h"
 #include "waymark/kernels/particle_columns.hpp"
-#include "waymark/kernels/particle_sightings.hpp"
+#include "waymark/kernels/particle_observations.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace waymark::kernels::HWY_NAMESPACE {
@@ -116,7 +116,7 @@ HWY_INLINE Sensor<T> sensor_of(const Pose<T>& robot, const SensorMount& mount) {
 /// The angle from direction (ux, uy) in the world to where the landmark was seen: the bearing's innovation,
 /// without a difference to wrap.
 template <class T>
-HWY_INLINE T bearing_innovation(const SeenLandmark& z, const Sensor<T>& from, T ux, T uy) {
+HWY_INLINE T bearing_innovation(const LandmarkMeasurement& z, const Sensor<T>& from, T ux, T uy) {
   const T ahead = from.c * ux + from.s * uy;
   const T left = from.c * uy - from.s * ux;
   const T cb = T(z.cos_bearing);
@@ -139,7 +139,7 @@ HWY_INLINE Ray<T> ray_of(T dx, T dy) {
 
 /// The range as a particle understands it.
 template <class T>
-HWY_INLINE T range_of(const SeenLandmark& z, std::size_t i) {
+HWY_INLINE T range_of(const LandmarkMeasurement& z, std::size_t i) {
   if (z.range_errors.offset == nullptr) return T(z.range);
   return (T(z.range) - load<T>(z.range_errors.offset, i)) * load<T>(z.range_errors.factor, i);
 }
@@ -147,14 +147,14 @@ HWY_INLINE T range_of(const SeenLandmark& z, std::size_t i) {
 /// A distance measured and a direction measured, both in metres in the frame of the ray (along, across to the
 /// left). In it the derivative by a point landmark is a rotation.
 template <class T>
-struct Look2 {
+struct Measured2 {
   Ray<T> ray;
   T nu_a, nu_t;        ///< innovation
   T R_aa, R_at, R_tt;  ///< its noise
 };
 
 template <class T>
-HWY_INLINE Look2<T> look_at_point(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
+HWY_INLINE Measured2<T> measure_point(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
                                   T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T nu_t = ray.r * bearing_innovation(z, from, ray.ux, ray.uy);
@@ -168,10 +168,10 @@ struct RayCovariance {
 };
 
 template <class T>
-HWY_INLINE RayCovariance<T> along_ray(const Look2<T>& look, const Gaussian2<T>& m) {
-  const T xx = look.ray.ux * look.ray.ux;
-  const T xy = look.ray.ux * look.ray.uy;
-  const T yy = look.ray.uy * look.ray.uy;
+HWY_INLINE RayCovariance<T> along_ray(const Measured2<T>& measured, const Gaussian2<T>& m) {
+  const T xx = measured.ray.ux * measured.ray.ux;
+  const T xy = measured.ray.ux * measured.ray.uy;
+  const T yy = measured.ray.uy * measured.ray.uy;
   return {xx * m.aa + T(2.0F) * xy * m.ab + yy * m.bb, xy * (m.bb - m.aa) + (xx - yy) * m.ab,
           yy * m.aa - T(2.0F) * xy * m.ab + xx * m.bb};
 }
@@ -179,18 +179,18 @@ HWY_INLINE RayCovariance<T> along_ray(const Look2<T>& look, const Gaussian2<T>& 
 /// One number measured: innovation, noise, and the derivatives by the landmark's two numbers (a, b) and by
 /// the robot's position and heading, in the world.
 template <class T>
-struct Look1 {
+struct Measured1 {
   T nu, R, h_a, h_b, g_x, g_y, g_t;
 };
 
 template <class T>
-HWY_INLINE T landmark_variance(const Look1<T>& look, const Gaussian2<T>& m) {
-  return look.h_a * look.h_a * m.aa + T(2.0F) * look.h_a * look.h_b * m.ab + look.h_b * look.h_b * m.bb;
+HWY_INLINE T landmark_variance(const Measured1<T>& measured, const Gaussian2<T>& m) {
+  return measured.h_a * measured.h_a * m.aa + T(2.0F) * measured.h_a * measured.h_b * m.ab + measured.h_b * measured.h_b * m.bb;
 }
 
 /// The range to a point: z = |d|, derivative by d its direction u.
 template <class T>
-HWY_INLINE Look1<T> look_range(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
+HWY_INLINE Measured1<T> measure_range(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
                                T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   return {range - ray.r,
@@ -204,7 +204,7 @@ HWY_INLINE Look1<T> look_range(const SeenLandmark& z, T range, const Sensor<T>& 
 
 /// The bearing of a point: derivative by d its perpendicular over its length.
 template <class T>
-HWY_INLINE Look1<T> look_bearing(const SeenLandmark& z, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
+HWY_INLINE Measured1<T> measure_bearing(const LandmarkMeasurement& z, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
                                  T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T tx = -ray.uy * ray.inverse_r;
@@ -217,7 +217,7 @@ HWY_INLINE Look1<T> look_bearing(const SeenLandmark& z, const Sensor<T>& from, c
 /// (cos phi, sin phi), a vector of the same direction as the landmark, and J_w = (-w_y, w_x) / |w|^2,
 /// d/d(phi, rho) = (J_w . (-sin phi, cos phi), J_w . (anchor - sensor)), d/d(position) = -rho J_w.
 template <class T>
-HWY_INLINE Look1<T> look_along_ray(const SeenLandmark& z, const Sensor<T>& from, const Gaussian2<T>& m, T ax,
+HWY_INLINE Measured1<T> measure_ray(const LandmarkMeasurement& z, const Sensor<T>& from, const Gaussian2<T>& m, T ax,
                                    T ay) {
   const auto phi = sin_cos(m.a);
   const T qx = ax - from.x;
@@ -239,13 +239,13 @@ HWY_INLINE Look1<T> look_along_ray(const SeenLandmark& z, const Sensor<T>& from,
 /// The range to a landmark (phi, r) on a ring about its anchor (ax, ay), and how far off the sensor's axis it
 /// would be.
 template <class T>
-struct RingLook {
-  Look1<T> look;
+struct MeasuredRing {
+  Measured1<T> measured;
   Ray<T> ray;
 };
 
 template <class T>
-HWY_INLINE RingLook<T> look_across_ring(const SeenLandmark& z, T range, const Sensor<T>& from, const Gaussian2<T>& m,
+HWY_INLINE MeasuredRing<T> measure_ring(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m,
                                         T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
@@ -273,7 +273,7 @@ HWY_INLINE T edge_innovation(const SensorMount& mount, const Sensor<T>& from, co
 /// The edge of the view, for a landmark (phi, r) on a ring about its anchor: as the bearing of a point p =
 /// anchor + r (cos phi, sin phi), d/dp = (-u_y, u_x) / |p - sensor|.
 template <class T>
-HWY_INLINE Look1<T> look_at_edge(const SeenLandmark& z, const SensorMount& mount, const Sensor<T>& from,
+HWY_INLINE Measured1<T> measure_edge(const LandmarkMeasurement& z, const SensorMount& mount, const Sensor<T>& from,
                                  const Gaussian2<T>& m, T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
@@ -290,8 +290,8 @@ HWY_INLINE Look1<T> look_at_edge(const SeenLandmark& z, const SensorMount& mount
 
 /// What a sensor sees from a robot that moves by an increment, it sees from before if it sits at the end of
 /// it.
-HWY_INLINE Sighting carried(const Sighting& sighting, const Increment& d) {
-  Sighting s = sighting;
+HWY_INLINE LandmarkObservation carried(const LandmarkObservation& observation, const Increment& d) {
+  LandmarkObservation s = observation;
   const float c = std::cos(d.t);
   const float sine = std::sin(d.t);
   const auto turn = [c, sine](float& x, float& y) HWY_ATTR {
@@ -318,7 +318,7 @@ struct Updated {
 /// The last is (I - K H) Sigma as 2x2 matrices allow it to be written: a sum of positive terms, which stays
 /// positive however sharp the sensor.
 template <class T>
-HWY_INLINE Updated<T> update2(const Look2<T>& l, const Gaussian2<T>& m) {
+HWY_INLINE Updated<T> update2(const Measured2<T>& l, const Gaussian2<T>& m) {
   const RayCovariance<T> S = along_ray(l, m);
   const T Z_aa = S.aa + l.R_aa;
   const T Z_at = S.at + l.R_at;
@@ -347,7 +347,7 @@ HWY_INLINE Updated<T> update2(const Look2<T>& l, const Gaussian2<T>& m) {
 /// The EKF update of any landmark by one number. With h its derivative, S = h Sigma h^T + R and h' = h turned
 /// by a quarter, Sigma' = (R Sigma + det Sigma h'^T h') / S: positive terms again.
 template <class T>
-HWY_INLINE Updated<T> update1(const Look1<T>& l, const Gaussian2<T>& m) {
+HWY_INLINE Updated<T> update1(const Measured1<T>& l, const Gaussian2<T>& m) {
   const T s_a = m.aa * l.h_a + m.ab * l.h_b;
   const T s_b = m.ab * l.h_a + m.bb * l.h_b;
   const T S = l.h_a * s_a + l.h_b * s_b + l.R;
@@ -410,7 +410,7 @@ struct Rows2 {
 };
 
 template <class T>
-HWY_INLINE Rows2<T> rows_of(const Look2<T>& l, const Sensor<T>& from, const Pose<T>& before) {
+HWY_INLINE Rows2<T> rows_of(const Measured2<T>& l, const Sensor<T>& from, const Pose<T>& before) {
   const T turn_a = l.ray.ux * from.arm_y - l.ray.uy * from.arm_x;
   const T turn_t = -(l.ray.uy * from.arm_y + l.ray.ux * from.arm_x) - l.ray.r;
   return {in_frame_of(before, -l.ray.ux, -l.ray.uy, turn_a),
@@ -419,14 +419,14 @@ HWY_INLINE Rows2<T> rows_of(const Look2<T>& l, const Sensor<T>& from, const Pose
 
 /// The covariance L of a range-bearing innovation when the increment is still open, in the frame of the ray.
 template <class T>
-HWY_INLINE RayCovariance<T> innovation_covariance(const Look2<T>& l, const Gaussian2<T>& m, const Rows2<T>& g,
+HWY_INLINE RayCovariance<T> innovation_covariance(const Measured2<T>& l, const Gaussian2<T>& m, const Rows2<T>& g,
                                                   const Column3<T>& p_a, const Column3<T>& p_t) {
   const RayCovariance<T> S = along_ray(l, m);
   return {dot(g.a, p_a) + S.aa + l.R_aa, dot(g.a, p_t) + S.at + l.R_at, dot(g.t, p_t) + S.tt + l.R_tt};
 }
 
 template <class T>
-HWY_INLINE Conditioned<T> condition2(const Gaussian3<T>& d, const Rows2<T>& g, const Look2<T>& l,
+HWY_INLINE Conditioned<T> condition2(const Gaussian3<T>& d, const Rows2<T>& g, const Measured2<T>& l,
                                      const Gaussian2<T>& m) {
   const Column3<T> p = times(d, g.a);
   const Column3<T> q = times(d, g.t);

@@ -15,9 +15,9 @@ namespace waymark::kernels::HWY_NAMESPACE {
 constexpr double kLogTurn = 1.8378770664093453;  // log 2 pi
 
 template <class T>
-HWY_INLINE void list_as(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
-                        float* log_likelihood, ParticleRange range) {
-  const Sighting s = carried(sighting, increment);
+HWY_INLINE void list_as(const LandmarkObservation& observation, const Increment& increment,
+                        const PoseColumns& before, float* log_likelihood, ParticleRange range) {
+  const LandmarkObservation s = carried(observation, increment);
   const auto d = unseen<T>(increment);
   const T offset_x = T(s.landmark.offset_x);
   const T offset_y = T(s.landmark.offset_y);
@@ -25,15 +25,16 @@ HWY_INLINE void list_as(const Sighting& sighting, const Increment& increment, co
     const Pose<T> pose = load_pose<T>(before, i);
     const Sensor<T> from = sensor_of(pose, s.mount);
     const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
-    const Look2<T> look =
-        look_at_point(s.seen, range_of<T>(s.seen, range.begin + i), from, m, offset_x, offset_y);
-    store(condition2(d, rows_of(look, from, pose), look, m).log_likelihood - T(kLogTurn), log_likelihood, i);
+    const Measured2<T> measured =
+        measure_point(s.seen, range_of<T>(s.seen, range.begin + i), from, m, offset_x, offset_y);
+    store(condition2(d, rows_of(measured, from, pose), measured, m).log_likelihood - T(kLogTurn),
+          log_likelihood, i);
   }
 }
 
-void list_lanes(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
+void list_lanes(const LandmarkObservation& observation, const Increment& increment, const PoseColumns& before,
                 float* log_likelihood, ParticleRange range) {
-  list_as<Lanes>(sighting, increment, before, log_likelihood, range);
+  list_as<Lanes>(observation, increment, before, log_likelihood, range);
 }
 
 }  // namespace waymark::kernels::HWY_NAMESPACE
@@ -44,16 +45,16 @@ namespace waymark::kernels {
 
 HWY_EXPORT(list_lanes);
 
-void list_log_likelihoods(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
-                          float* log_likelihood, ParticleRange range) {
-  HWY_DYNAMIC_DISPATCH(list_lanes)(sighting, increment, before, log_likelihood, range);
+void list_log_likelihoods(const LandmarkObservation& observation, const Increment& increment,
+                          const PoseColumns& before, float* log_likelihood, ParticleRange range) {
+  HWY_DYNAMIC_DISPATCH(list_lanes)(observation, increment, before, log_likelihood, range);
 }
 
 namespace reference {
 
-void list_log_likelihoods(const Sighting& sighting, const Increment& increment, const PoseColumns& before,
-                          float* log_likelihood, ParticleRange range) {
-  HWY_NAMESPACE::list_as<double>(sighting, increment, before, log_likelihood, range);
+void list_log_likelihoods(const LandmarkObservation& observation, const Increment& increment,
+                          const PoseColumns& before, float* log_likelihood, ParticleRange range) {
+  HWY_NAMESPACE::list_as<double>(observation, increment, before, log_likelihood, range);
 }
 
 }  // namespace reference

@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace waymark::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The accumulators of a tile, one row of operands and one broadcast fill the registers (32 or 16), and are
-// enough independent chains to hide the latency of a fused multiply-add. Per step of k a tile of 8 x 3
+// The compressed terms of a tile, one row of operands and one broadcast fill the registers (32 or 16), and
+// are enough independent chains to hide the latency of a fused multiply-add. Per step of k a tile of 8 x 3
 // vectors loads 11 operands for 24 multiply-adds, so arithmetic and not the load ports is the bound: n^2 D
 // flop at peak rate.
 #if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_NEON

@@ -27,7 +27,7 @@ void symmetric_update(double* P, std::size_t ld, std::size_t n, const double* W,
                       std::size_t D, const double* d, const double* e, RowBand band);
 
 /// P += -A^T B + d e^T + e d^T on the rows of `band` of the upper triangle, for A and B: D x n whose product
-/// is symmetric. d and e may be null. What a region of the compressed EKF (Guivant and Nebot 2001) did to the
+/// is symmetric. d and e may be null. What a submap of the compressed EKF (Guivant and Nebot 2001) did to the
 /// covariance of the landmarks outside of it has this form, with B = psi A.
 void symmetric_product_update(double* P, std::size_t ld, std::size_t n, const double* A, const double* B,
                               std::size_t ldw, std::size_t D, const double* d, const double* e, RowBand band);

@@ -73,7 +73,7 @@ HWY_INLINE void zero(Value* values, int count) {
 
 // All columns of a row; the last vector overlaps the one before it instead of reading behind the row.
 template <class D>
-HWY_INLINE void widen(D d16, const std::uint8_t* pixels, int columns, std::int16_t* wide) {
+HWY_INLINE void inflate_covariance(D d16, const std::uint8_t* pixels, int columns, std::int16_t* wide) {
   const hn::Rebind<std::uint8_t, D> d8;
   const int lanes = static_cast<int>(hn::Lanes(d16));
   const auto widen_at = [&](int u) HWY_ATTR {
@@ -123,9 +123,9 @@ HWY_INLINE void take_row(const std::uint8_t* row, Band& band) {
   std::int16_t* wide = band.pixels[slot(band.taken)];
   // NOLINTNEXTLINE(bugprone-branch-clone): the same where vectors have eight lanes
   if (band.columns >= 16)
-    widen(hn::CappedTag<std::int16_t, 16>(), row, band.columns, wide);
+    inflate_covariance(hn::CappedTag<std::int16_t, 16>(), row, band.columns, wide);
   else
-    widen(hn::CappedTag<std::int16_t, 8>(), row, band.columns, wide);
+    inflate_covariance(hn::CappedTag<std::int16_t, 8>(), row, band.columns, wide);
   const unsigned pair = static_cast<unsigned>(band.taken) % kPairRing;
   pair_up(band.taken > band.from ? band.pixels[slot(band.taken - 1)] : kNone, wide, band.columns,
           band.pairs[pair], band.pairs[pair + kPairRing]);

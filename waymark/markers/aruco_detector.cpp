@@ -14,8 +14,8 @@ namespace {
 constexpr double kWrongBorderMax = 0.35;
 // Part of all cells that may be of two colours: a pattern of other cells, read by chance, has more.
 constexpr double kDividedMax = 0.25;
-// Smaller pictures have no room for a marker and paper around it.
-constexpr int kPictureMin_px = 8;
+// Smaller images have no room for a marker and paper around it.
+constexpr int kImageMin_px = 8;
 
 /// Corners from the upper left of the pattern, which is `turns` quarters counter-clockwise from the first.
 Corners turned(const Corners& corners, int turns) {
@@ -36,7 +36,7 @@ class ArucoDetector final : public MarkerDetector {
       : bits_per_side_(dictionary.bits_per_side), book_(dictionary) {}
 
   std::vector<Marker> detect(const ImageView& image) override {
-    if (std::min(image.width_px, image.height_px) < kPictureMin_px) return {};
+    if (std::min(image.width_px, image.height_px) < kImageMin_px) return {};
     std::vector<Marker> found;
     for (const Corners& quad : finder_.find(image)) {
       const auto marker = read(image, quad);

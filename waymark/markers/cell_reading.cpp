@@ -43,7 +43,7 @@ struct Cells {
   }
 };
 
-/// What is outside the picture is as its edge.
+/// What is outside the image is as its edge.
 double grey_at(const ImageView& image, double x, double y) {
   const double u = std::clamp(x, 0.0, image.width_px - 1.001);
   const double v = std::clamp(y, 0.0, image.height_px - 1.001);

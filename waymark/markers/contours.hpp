@@ -19,7 +19,7 @@ using Contour = std::vector<Eigen::Vector2f>;
 class ContourTracer {
  public:
   /// Hands every contour of at least `points_min` points to `use`, which may keep it only until it returns,
-  /// in the order of their first rows: clockwise in the picture around what is dark, counter-clockwise around
+  /// in the order of their first rows: clockwise in the image around what is dark, counter-clockwise around
   /// what is bright in it.
   void trace(const ContrastMap& map, std::size_t points_min, const std::function<void(const Contour&)>& use);
 

@@ -75,8 +75,8 @@ struct Side {
 
   /// By how much the side is off at a way from the first corner where its mean is off by 1/sqrt(points), and
   /// where its direction is off by as much as it is known to.
-  [[nodiscard]] Vector2d errors_at(double way_px) const {
-    return {1.0 / std::sqrt(points), (way_px - middle_px) / std::sqrt(spread_px2)};
+  [[nodiscard]] Vector2d errors_at(double along_px) const {
+    return {1.0 / std::sqrt(points), (along_px - middle_px) / std::sqrt(spread_px2)};
   }
 };
 
@@ -92,14 +92,14 @@ std::optional<Side> find_side(const ImageView& image, const Camera& camera, cons
   Side side;
   double sum_px2 = 0.0;
   for (int i = 0; i < count; ++i) {
-    const double way_px = kFromCorner_px + usable_px * (i + 0.5) / count;
-    const Vector2d p = from + way_px * along;
+    const double along_px = kFromCorner_px + usable_px * (i + 0.5) / count;
+    const Vector2d p = from + along_px * along;
     const auto rise_px = find_rise(image, p, outwards, search_px);
     const auto ray = rise_px ? camera.ray(p + *rise_px * outwards) : std::nullopt;
     if (!ray) continue;
     rays.push_back(ray->xy);
-    side.middle_px += way_px;
-    sum_px2 += way_px * way_px;
+    side.middle_px += along_px;
+    sum_px2 += along_px * along_px;
   }
   if (rays.size() < kPointsMin || 2 * rays.size() < static_cast<std::size_t>(count)) return std::nullopt;
   side.line = line_through(rays);

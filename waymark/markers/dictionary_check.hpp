@@ -15,13 +15,13 @@
 namespace waymark::markers {
 
 /// Notices that markers are looked for in the wrong dictionary: hardly one is found, or they come and go,
-/// while another dictionary finds more in some of the same pictures.
+/// while another dictionary finds more in some of the same images.
 class DictionaryCheck {
  public:
   explicit DictionaryCheck(const MarkerDictionary& dictionary) : dictionary_(dictionary) {}
 
-  /// Called with every picture and what was found in it.
-  void add(std::shared_ptr<const GreyImage> picture, std::span<const std::int32_t> ids);
+  /// Called with every image and what was found in it.
+  void add(std::shared_ptr<const GreyImage> image, std::span<const std::int32_t> ids);
 
   /// One line if the dictionary looks wrong; tries the others then, which takes some 0.5 s.
   [[nodiscard]] std::optional<std::string> verdict() const;
@@ -29,18 +29,18 @@ class DictionaryCheck {
  private:
   static constexpr std::size_t kSamples = 8;
 
-  /// Pictures spread evenly over the log.
+  /// Images spread evenly over the log.
   struct Sample {
-    std::shared_ptr<const GreyImage> picture;
+    std::shared_ptr<const GreyImage> image;
     std::set<std::int32_t> ids;
   };
 
   [[nodiscard]] bool is_suspicious() const;
 
   MarkerDictionary dictionary_;
-  std::int64_t pictures_ = 0;
-  std::int64_t sightings_ = 0;
-  std::int64_t steady_ = 0;  ///< sightings of what the picture before showed, too
+  std::int64_t images_ = 0;
+  std::int64_t observations_ = 0;
+  std::int64_t steady_ = 0;  ///< observations of what the image before showed, too
   std::set<std::int32_t> last_ids_;
   std::set<std::int32_t> all_ids_;
   std::int64_t every_ = 1;

@@ -8,7 +8,7 @@
 
 namespace waymark::markers {
 
-/// How much brighter each pixel of a picture is than its surroundings; below zero it is dark. A frame of one
+/// How much brighter each pixel of an image is than its surroundings; below zero it is dark. A frame of one
 /// bright pixel is around it.
 struct ContrastMap {
   int width_px = 0;
@@ -16,7 +16,7 @@ struct ContrastMap {
   std::vector<std::int16_t> values;
 
   [[nodiscard]] std::ptrdiff_t stride() const { return width_px + 2; }
-  /// The first pixel of row v, -1 to height_px, of the picture; the frame is at -1 and width_px.
+  /// The first pixel of row v, -1 to height_px, of the image; the frame is at -1 and width_px.
   [[nodiscard]] const std::int16_t* row(int v) const { return values.data() + (v + 1) * stride() + 1; }
   [[nodiscard]] std::int16_t* row(int v) { return values.data() + (v + 1) * stride() + 1; }
 };
@@ -28,7 +28,7 @@ struct Darkness {
 };
 
 /// window^2 (I - mean I over the window + margin): below zero where it is dark. Windows that reach beyond the
-/// picture see its last row or column repeated. Fills `map`, whose memory is used again. Some 0.5 ns per
+/// image see its last row or column repeated. Fills `map`, whose memory is used again. Some 0.5 ns per
 /// pixel.
 void measure_contrast(const ImageView& image, const Darkness& darkness, ContrastMap& map);
 

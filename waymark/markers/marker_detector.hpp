@@ -12,7 +12,7 @@
 
 namespace waymark::markers {
 
-/// A marker in a picture, its corners to about a pixel; the centre of the first pixel is at (0, 0).
+/// A marker in an image, its corners to about a pixel; the centre of the first pixel is at (0, 0).
 using Marker = MarkerOutline;
 
 /// Finds the markers of one dictionary. Not to be called from two threads at once; starts none.

@@ -10,7 +10,7 @@
 namespace waymark {
 namespace {
 
-/// Identities whose sightings the filter often refused as too far from where they should be, as when two
+/// Identities whose observations the filter often refused as too far from where they should be, as when two
 /// markers bear one number; one line each.
 std::vector<std::string> describe_jumps(std::span<const Innovation> innovations) {
   constexpr std::int64_t kMin = 5;
@@ -53,36 +53,36 @@ void MarkerFinder::stop() {
   changed_.notify_all();
 }
 
-void MarkerFinder::announce(Picture picture) {
+void MarkerFinder::announce(SharedImage frame) {
   if (threads_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(picture));
+    waiting_.push_back(std::move(frame));
   }
   changed_.notify_all();
 }
 
-MarkerFinder::Finds MarkerFinder::take(const Picture& picture) {
-  if (threads_.empty()) return look(*picture);
+MarkerFinder::Finds MarkerFinder::take(const SharedImage& frame) {
+  if (threads_.empty()) return look(*frame);
   std::unique_lock lock(mutex_);
-  if (!is_done(picture, lock)) std::rethrow_exception(failure_);
-  return std::move(done_.extract(picture).mapped());
+  if (!is_done(frame, lock)) std::rethrow_exception(failure_);
+  return std::move(done_.extract(frame).mapped());
 }
 
-void MarkerFinder::drop(const Picture& picture) {
+void MarkerFinder::drop(const SharedImage& frame) {
   if (threads_.empty()) return;
   std::unique_lock lock(mutex_);
-  if (is_done(picture, lock)) done_.erase(done_.find(picture));
+  if (is_done(frame, lock)) done_.erase(done_.find(frame));
 }
 
-bool MarkerFinder::is_done(const Picture& picture, std::unique_lock<std::mutex>& lock) {
-  changed_.wait(lock, [&] { return failure_ != nullptr || done_.contains(picture); });
-  return done_.contains(picture);
+bool MarkerFinder::is_done(const SharedImage& frame, std::unique_lock<std::mutex>& lock) {
+  changed_.wait(lock, [&] { return failure_ != nullptr || done_.contains(frame); });
+  return done_.contains(frame);
 }
 
-MarkerFinder::Finds MarkerFinder::look(const GreyImage& picture) {
+MarkerFinder::Finds MarkerFinder::look(const GreyImage& frame) {
   const Duration start = thread_cpu_time();
-  Finds finds{detector_->detect(picture), {}};
+  Finds finds{detector_->detect(frame), {}};
   finds.cpu = thread_cpu_time() - start;
   return finds;
 }
@@ -133,15 +133,15 @@ bool MarkerFrontEnd::fits(const ImageView& image) const {
   return image.width_px == camera_.width_px() && image.height_px == camera_.height_px();
 }
 
-FrontEnd::Seen MarkerFrontEnd::see(const Picture& picture) {
-  const MarkerFinder::Finds finds = finder_.take(picture);
+FrontEnd::Seen MarkerFrontEnd::see(const SharedImage& frame) {
+  const MarkerFinder::Finds finds = finder_.take(frame);
   blocks_.record(0, finds.cpu);
   BlockTimer timer(blocks_, 1);
-  measure(picture, finds.markers);
+  measure(frame, finds.markers);
   refuse_duplicates();
   hold_back_new();
   timer.finish(1);
-  return std::span<const Observation>(sightings_);
+  return std::span<const Observation>(observations_);
 }
 
 std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines) {
@@ -150,59 +150,59 @@ std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines)
   refuse_duplicates();
   hold_back_new();
   timer.finish(1);
-  return sightings_;
+  return observations_;
 }
 
-void MarkerFrontEnd::measure(const Picture& picture, std::span<const markers::Marker> found) {
-  sightings_.clear();
+void MarkerFrontEnd::measure(const SharedImage& frame, std::span<const markers::Marker> found) {
+  observations_.clear();
   std::vector<std::int32_t> ids;
   for (const markers::Marker& marker : found) {
-    const auto seen = sighter_.sight(*picture, marker);
+    const auto seen = sighter_.sight(*frame, marker);
     const auto* refusal = std::get_if<markers::Refusal>(&seen);
     take(seen);
     if (refusal == nullptr || *refusal != markers::Refusal::kNoBorder) ids.push_back(marker.id);
   }
-  check_.add(picture, ids);
+  check_.add(frame, ids);
 }
 
 void MarkerFrontEnd::measure(const MarkerOutlines& outlines) {
-  sightings_.clear();
+  observations_.clear();
   for (const MarkerOutline& outline : outlines) take(sighter_.sight(outline.corners_px, outline.id));
-  std::ranges::stable_sort(sightings_, {}, [](const Observation& each) { return *each.id; });
+  std::ranges::stable_sort(observations_, {}, [](const Observation& each) { return *each.id; });
 }
 
 void MarkerFrontEnd::take(const std::variant<Observation, markers::Refusal>& seen) {
   if (const auto* refusal = std::get_if<markers::Refusal>(&seen))
     ++refused_[static_cast<std::size_t>(*refusal)];
   else
-    sightings_.push_back(std::get<Observation>(seen));
+    observations_.push_back(std::get<Observation>(seen));
 }
 
 /// Nobody knows which of them is the one of the map. They come in the order of their identities.
 void MarkerFrontEnd::refuse_duplicates() {
-  for (auto first = sightings_.begin(); first != sightings_.end();) {
+  for (auto first = observations_.begin(); first != observations_.end();) {
     const auto last =
-        std::find_if(first, sightings_.end(), [&](const auto& each) { return each.id != first->id; });
+        std::find_if(first, observations_.end(), [&](const auto& each) { return each.id != first->id; });
     if (last - first == 1) {
       first = last;
       continue;
     }
     ++duplicates_[*first->id];
     refused_[static_cast<std::size_t>(markers::Refusal::kDuplicate)] += last - first;
-    first = sightings_.erase(first, last);
+    first = observations_.erase(first, last);
   }
 }
 
-/// What a wall happens to show of a marker does not last.
+/// Consecutive detections are required, to reject false positives.
 void MarkerFrontEnd::hold_back_new() {
-  constexpr std::int64_t kGapMax = 15;  // pictures
-  ++pictures_;
-  std::erase_if(sightings_, [this](const Observation& each) {
+  constexpr std::int64_t kGapMax = 15;  // images
+  ++images_;
+  std::erase_if(observations_, [this](const Observation& each) {
     Trial& trial = trials_[*each.id];
-    if (trial.sightings >= confirm_) return false;
-    if (pictures_ - trial.last_picture > kGapMax) trial.sightings = 0;
-    trial.last_picture = pictures_;
-    return ++trial.sightings < confirm_;
+    if (trial.observations >= confirm_) return false;
+    if (images_ - trial.last_image > kGapMax) trial.observations = 0;
+    trial.last_image = images_;
+    return ++trial.observations < confirm_;
   });
 }
 
@@ -211,14 +211,14 @@ std::vector<std::string> MarkerFrontEnd::notes(std::span<const Innovation> innov
   if (auto verdict = check_.verdict()) lines.push_back(*std::move(verdict));
   for (std::size_t i = 0; i < refused_.size(); ++i)
     if (refused_[i] > 0)
-      lines.push_back(concat(refused_[i], " sightings of markers not used: ",
+      lines.push_back(concat(refused_[i], " observations of markers not used: ",
                              markers::describe(static_cast<markers::Refusal>(i))));
   for (const auto& [id, trial] : trials_)
-    if (trial.sightings < confirm_)
+    if (trial.observations < confirm_)
       lines.push_back(concat("marker ", id.number, " was seen too seldom to be believed (markers.confirm)"));
-  for (const auto& [id, pictures] : duplicates_)
+  for (const auto& [id, images] : duplicates_)
     lines.push_back(
-        concat("marker ", id.number, " is twice in ", pictures, " pictures: print every number once"));
+        concat("marker ", id.number, " is twice in ", images, " images: print every number once"));
   std::ranges::move(describe_jumps(innovations), std::back_inserter(lines));
   return lines;
 }

@@ -22,14 +22,14 @@
 #include "waymark/core/result.hpp"
 #include "waymark/markers/dictionary_check.hpp"
 #include "waymark/markers/marker_detector.hpp"
+#include "waymark/markers/marker_observation.hpp"
 #include "waymark/markers/marker_options.hpp"
-#include "waymark/markers/marker_sighting.hpp"
 #include "waymark/models/camera.hpp"
 #include "waymark/slam/front_end.hpp"
 
 namespace waymark {
 
-/// Finds markers in pictures, ahead of who needs them: on a thread of its own, or, without one, when they are
+/// Finds markers in images, ahead of who needs them: on a thread of its own, or, without one, when they are
 /// asked for. What it finds is the same either way.
 class MarkerFinder {
  public:
@@ -37,7 +37,7 @@ class MarkerFinder {
     std::vector<markers::Marker> markers;
     Duration cpu{0};  ///< that it took
   };
-  using Picture = std::shared_ptr<const GreyImage>;
+  using SharedImage = std::shared_ptr<const GreyImage>;
 
   /// Throws std::system_error where the thread cannot be started.
   MarkerFinder(std::unique_ptr<markers::MarkerDetector> detector, bool own_thread);
@@ -45,33 +45,33 @@ class MarkerFinder {
   MarkerFinder(const MarkerFinder&) = delete;
   MarkerFinder& operator=(const MarkerFinder&) = delete;
 
-  /// A picture that will be taken or dropped.
-  void announce(Picture picture);
+  /// An image that will be taken or dropped.
+  void announce(SharedImage frame);
   /// What is in one that was announced; waits where need be. What was thrown while looking is thrown here.
-  [[nodiscard]] Finds take(const Picture& picture);
+  [[nodiscard]] Finds take(const SharedImage& frame);
   /// It will not be needed.
-  void drop(const Picture& picture);
+  void drop(const SharedImage& frame);
 
  private:
-  [[nodiscard]] Finds look(const GreyImage& picture);
+  [[nodiscard]] Finds look(const GreyImage& frame);
   void work();
   void look_at_waiting();
   void stop();
-  /// Waits for what becomes of a picture: is it done?
-  [[nodiscard]] bool is_done(const Picture& picture, std::unique_lock<std::mutex>& lock);
+  /// Waits for what becomes of an image: is it done?
+  [[nodiscard]] bool is_done(const SharedImage& frame, std::unique_lock<std::mutex>& lock);
 
   std::unique_ptr<markers::MarkerDetector> detector_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Picture> waiting_;
-  Picture at_work_;
-  std::multimap<Picture, Finds> done_;
+  std::deque<SharedImage> waiting_;
+  SharedImage at_work_;
+  std::multimap<SharedImage, Finds> done_;
   bool stopping_ = false;
   std::exception_ptr failure_;        ///< with which the thread has ended
   std::vector<std::thread> threads_;  ///< one or none; last: it works on the others
 };
 
-/// What a camera sees of markers, as sightings for a filter over range and bearing.
+/// What a camera sees of markers, as observations for a filter over range and bearing.
 class MarkerFrontEnd final : public FrontEnd {
  public:
   /// Or what the options lack, or this build.
@@ -82,11 +82,11 @@ class MarkerFrontEnd final : public FrontEnd {
   [[nodiscard]] bool corrects_filter() const override { return false; }
   [[nodiscard]] bool takes_outlines() const override { return true; }
 
-  void announce(const Picture& picture) override { finder_.announce(picture); }
-  void drop(const Picture& picture) override { finder_.drop(picture); }
+  void announce(const SharedImage& frame) override { finder_.announce(frame); }
+  void drop(const SharedImage& frame) override { finder_.drop(frame); }
 
-  /// The markers in a picture, each identity once.
-  Seen see(const Picture& picture) override;
+  /// The markers in an image, each identity once.
+  Seen see(const SharedImage& frame) override;
   std::span<const Observation> see(const MarkerOutlines& outlines) override;
 
   [[nodiscard]] std::span<const FunctionBlocks::Row> blocks() const override { return blocks_.rows(); }
@@ -96,7 +96,7 @@ class MarkerFrontEnd final : public FrontEnd {
   MarkerFrontEnd(const markers::MarkerOptions& options, const markers::MarkerSet& set, const Camera& camera,
                  std::unique_ptr<markers::MarkerDetector> detector);
 
-  void measure(const Picture& picture, std::span<const markers::Marker> found);
+  void measure(const SharedImage& frame, std::span<const markers::Marker> found);
   void measure(const MarkerOutlines& outlines);
   void take(const std::variant<Observation, markers::Refusal>& seen);
   void refuse_duplicates();
@@ -104,18 +104,18 @@ class MarkerFrontEnd final : public FrontEnd {
 
   /// Of an identity that is not believed yet.
   struct Trial {
-    int sightings = 0;
-    std::int64_t last_picture = 0;
+    int observations = 0;
+    std::int64_t last_image = 0;
   };
 
   Camera camera_;
   int confirm_;
   markers::MarkerSighter sighter_;
   markers::DictionaryCheck check_;
-  std::vector<Observation> sightings_;
+  std::vector<Observation> observations_;
   std::array<std::int64_t, markers::kRefusals> refused_{};
-  std::map<LandmarkId, std::int64_t> duplicates_;  ///< pictures that show an identity twice
-  std::int64_t pictures_ = 0;
+  std::map<LandmarkId, std::int64_t> duplicates_;  ///< images that show an identity twice
+  std::int64_t images_ = 0;
   std::map<LandmarkId, Trial> trials_;
   FunctionBlocks blocks_{"find markers", "measure markers"};
   MarkerFinder finder_;  ///< last, so that its thread ends before what it works on

@@ -11,15 +11,15 @@ namespace waymark::markers {
 
 /// What markers there are, and how well they are seen.
 struct MarkerOptions {
-  std::string dictionary;         ///< empty: not said
-  double size_m = 0.0;            ///< side of the black square; 0: not said
-  std::string sizes_m;            ///< of those that differ, "id: size, id: size"
-  double side_sigma_px = 0.08;    ///< of one point on a side
-  double corner_sigma_px = 0.3;   ///< of a corner that another program found
-  double mount_sigma_deg = 0.05;  ///< of the camera on its robot from picture to picture
-  double max_tilt_deg = 75.0;     ///< more edge-on markers are not used
-  int confirm = 1;                ///< pictures that must show an identity before it is believed
-  bool own_thread = true;         ///< detection runs ahead of the filter
+  std::string dictionary;        ///< empty: not said
+  double size_m = 0.0;           ///< side of the black square; 0: not said
+  std::string sizes_m;           ///< of those that differ, "id: size, id: size"
+  double side_sigma_px = 0.08;   ///< of one point on a side
+  double corner_sigma_px = 0.3;  ///< of a corner that another program found
+  double jitter_deg = 0.05;      ///< of the camera on its robot from image to image
+  double max_tilt_deg = 75.0;    ///< more edge-on markers are not used
+  int confirm = 1;               ///< images that must show an identity before it is believed
+  bool own_thread = true;        ///< detection runs ahead of the filter
 };
 
 /// Options that were understood.
@@ -28,7 +28,7 @@ struct MarkerSet {
   double size_m = 0.0;
   std::map<std::int32_t, double> sizes_m;
 
-  /// 0: nobody said.
+  /// 0: unset.
   [[nodiscard]] double size_of(std::int32_t id) const;
 };
 

@@ -14,7 +14,7 @@ constexpr std::size_t kContourPointsMin = 24;
 
 struct Look {
   Darkness darkness;
-  bool is_halved = false;  ///< at the picture in half its size
+  bool is_halved = false;  ///< at the image in half its size
 };
 
 // What one misses another finds: most markers; those of cells of one or two pixels, which a wide window
@@ -43,7 +43,7 @@ Corners doubled(Corners corners) {
   return corners;
 }
 
-/// Not cut off by the edge of the picture.
+/// Not cut off by the edge of the image.
 bool is_whole(const Corners& corners, const ImageView& image) {
   return std::ranges::all_of(corners, [&](const Eigen::Vector2d& corner) {
     return corner.minCoeff() >= 0.0 && corner.x() <= image.width_px - 1 && corner.y() <= image.height_px - 1;

@@ -13,7 +13,7 @@ namespace waymark::markers {
 /// two threads at once; its memory is used again.
 class QuadFinder {
  public:
-  /// Their corners, clockwise in the picture, to about a pixel; the same one more than once where several
+  /// Their corners, clockwise in the image, to about a pixel; the same one more than once where several
   /// looks show it. Sides are of 5 pixels or more. 3 to 5 ms for 640 x 480 pixels.
   [[nodiscard]] std::vector<Corners> find(const ImageView& image);
 

@@ -19,7 +19,7 @@ constexpr std::size_t kTrimPart = 6;
 constexpr std::size_t kTrimMax = 6;
 constexpr std::size_t kPointsMin = 3;
 
-/// Positive where b lies clockwise of a in the picture.
+/// Positive where b lies clockwise of a in the image.
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Vector2d at(const Contour& contour, std::size_t i) { return contour[i % contour.size()].cast<double>(); }

@@ -81,7 +81,7 @@ class Camera {
   [[nodiscard]] int width_px() const { return options_.width_px; }
   [[nodiscard]] int height_px() const { return options_.height_px; }
 
-  /// The image of a point in the camera frame, in the picture or beside it. Nothing for a point that is not
+  /// The image of a point in the camera frame, in the image or beside it. Nothing for a point that is not
   /// in front of the camera, or so far off the axis that the lens polynomial has turned back. Depends on the
   /// direction of the point only (Jacobians scale with 1/distance).
   [[nodiscard]] std::optional<Projection> project(const Eigen::Vector3d& p_camera) const;
@@ -89,7 +89,7 @@ class Camera {
   /// The ray that is seen at a pixel, by Newton's method to 1e-12; nothing where no ray ends.
   [[nodiscard]] std::optional<PixelRay> ray(const Eigen::Vector2d& pixel) const;
 
-  /// Is the pixel at least `border_px` inside the picture?
+  /// Is the pixel at least `border_px` inside the image?
   [[nodiscard]] bool sees(const Eigen::Vector2d& pixel, double border_px = 0.0) const;
 
   [[nodiscard]] CameraPose pose(const Pose2& T_world_robot) const;

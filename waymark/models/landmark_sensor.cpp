@@ -35,9 +35,9 @@ Measurement rectify(const LandmarkSensor& sensor, const Measurement& reported) {
 LandmarkSensor with_white_errors(LandmarkSensor sensor) {
   const SensorErrors& e = sensor.errors;
   sensor.range_sigma_ratio =
-      std::hypot(sensor.range_sigma_ratio, e.shared_range_sigma_ratio, e.lasting_range_sigma_ratio);
+      std::hypot(sensor.range_sigma_ratio, e.shared_range_sigma_ratio, e.bias_range_sigma_ratio);
   sensor.bearing_sigma_deg =
-      std::hypot(sensor.bearing_sigma_deg, e.shared_bearing_sigma_deg, e.lasting_bearing_sigma_deg);
+      std::hypot(sensor.bearing_sigma_deg, e.shared_bearing_sigma_deg, e.bias_bearing_sigma_deg);
   sensor.errors = {};
   return sensor;
 }

@@ -8,14 +8,14 @@
 
 namespace waymark {
 
-/// Errors of a sensor that are not drawn anew at every sighting.
+/// Errors of a sensor that are not drawn anew at every observation.
 struct SensorErrors {
   double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
   double shared_range_sigma_m = 0.0;      ///< of an offset of all ranges
   double shared_bearing_sigma_deg = 0.0;
-  double lasting_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
-  double lasting_bearing_sigma_deg = 0.0;
-  double lasting_way_m = 0.3;  ///< way after which 37 % of that are left
+  double bias_range_sigma_ratio = 0.0;  ///< of what successive ranges to one landmark have in common
+  double bias_bearing_sigma_deg = 0.0;
+  double bias_distance_m = 0.3;  ///< way after which 37 % of that are left
 
   [[nodiscard]] bool shares_range() const {
     return shared_range_sigma_ratio > 0.0 || shared_range_sigma_m > 0.0;
@@ -23,9 +23,7 @@ struct SensorErrors {
   [[nodiscard]] bool shares() const {
     return shared_range_sigma_ratio > 0.0 || shared_bearing_sigma_deg > 0.0;
   }
-  [[nodiscard]] bool lasts() const {
-    return lasting_range_sigma_ratio > 0.0 || lasting_bearing_sigma_deg > 0.0;
-  }
+  [[nodiscard]] bool lasts() const { return bias_range_sigma_ratio > 0.0 || bias_bearing_sigma_deg > 0.0; }
 };
 
 /// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
@@ -45,7 +43,7 @@ struct LandmarkSensor {
   double field_of_view_deg = 360.0;
   /// That it reports a landmark within these limits; 0: that it reports none says nothing.
   double detection_probability = 0.0;
-  double delay_s = 0.0;  ///< how much later than the sighting its stamp is
+  double delay_s = 0.0;  ///< how much later than the observation its stamp is
 
   [[nodiscard]] Pose2 T_robot_sensor() const { return {x_m, y_m, to_radians(yaw_deg)}; }
 };

@@ -2,7 +2,7 @@
 
 namespace waymark {
 
-bool tells_size(Observe observe, const SensorErrors& errors) {
+bool observes_scale(Observe observe, const SensorErrors& errors) {
   return observe != Observe::kBearing && !(errors.shared_range_sigma_ratio > 0.0);
 }
 

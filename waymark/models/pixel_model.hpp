@@ -26,7 +26,7 @@ struct PixelLinearization {
 
 /// A point by where it was first seen (Civera, Davison, Montiel 2008): ray = (x, y, rho) in the frame of the
 /// camera of then, p = (x, y, 1)/rho. That camera stood on an anchor, a pose of the robot that all points
-/// share that were first seen in one picture. Seen from a camera with p_camera ~ R_cw [rho (c_anchor - c) +
+/// share that were first seen in one image. Seen from a camera with p_camera ~ R_cw [rho (c_anchor - c) +
 /// R_wc_anchor (x, y, 1)]: finite down to rho = 0, a point at infinity.
 struct RayLinearization {
   Eigen::Vector2d predicted;                  ///< px

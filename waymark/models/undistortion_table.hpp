@@ -16,7 +16,7 @@ class UndistortionTable {
 
   explicit UndistortionTable(const Camera& camera);
 
-  /// (x, y) of the ray (x, y, 1) through a pixel of the picture (beside it: of the nearest one); NaN where no
+  /// (x, y) of the ray (x, y, 1) through a pixel of the image (beside it: of the nearest one); NaN where no
   /// ray ends.
   [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& pixel) const;
 

@@ -12,7 +12,7 @@ CornerFrontEnd::CornerFrontEnd(PixelSlam& filter, const vision::TrackerOptions& 
       camera_(camera),
       on_the_clock_(options.budget.kind == vision::BudgetKind::kClock),
       tracker_(options, search, camera, threads) {
-  constexpr std::size_t kRoom = 256;  // for innovations of one picture
+  constexpr std::size_t kRoom = 256;  // for innovations of one image
   innovations_.reserve(kRoom);
 }
 
@@ -26,17 +26,18 @@ const Correction& CornerFrontEnd::see(const ImageView& image) {
   const auto expectations = filter_.expect();
   filter_took_ = stopwatch_.stop();
   // Vincke Algorithm 1
-  tracker_.track(
-      image, filter_.pose().T_world_robot, expectations,
-      [this](vision::Round, const vision::Sightings& seen) -> const Correction& { return correct(seen); });
+  tracker_.track(image, filter_.pose().T_world_robot, expectations,
+                 [this](vision::Round, const vision::SearchOutcome& seen) -> const Correction& {
+                   return correct(seen);
+                 });
   leave_time();
   return correction_;
 }
 
 /// One round.
-const Correction& CornerFrontEnd::correct(const vision::Sightings& sightings) {
+const Correction& CornerFrontEnd::correct(const vision::SearchOutcome& observations) {
   stopwatch_.start();
-  const Correction& correction = filter_.correct(sightings.found, sightings.missed);
+  const Correction& correction = filter_.correct(observations.found, observations.missed);
   filter_took_ += stopwatch_.stop();
   innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
   correction_ = {innovations_, correction.removed};
@@ -45,7 +46,7 @@ const Correction& CornerFrontEnd::correct(const vision::Sightings& sightings) {
 
 /// Where the clock counts the tracker leaves the filter as much time as it took at most of late.
 void CornerFrontEnd::leave_time() {
-  constexpr double kForgotten = 0.02;  // per picture
+  constexpr double kForgotten = 0.02;  // per image
   if (!on_the_clock_) return;
   const auto remembered = std::chrono::duration_cast<Duration>((1.0 - kForgotten) * filter_takes_);
   filter_takes_ = std::max(filter_took_, remembered);
@@ -56,10 +57,9 @@ std::vector<std::string> CornerFrontEnd::notes(std::span<const Innovation> /*inn
   const vision::TrackerCounts& counts = tracker_.counts();
   std::vector<std::string> lines;
   if (counts.unusable > 0)
-    lines.push_back(concat(counts.unusable, " pictures show nothing: black, white or covered"));
+    lines.push_back(concat(counts.unusable, " images show nothing: black, white or covered"));
   if (counts.out_of_budget > 0)
-    lines.push_back(
-        concat(counts.out_of_budget, " pictures in which something was left out for want of time"));
+    lines.push_back(concat(counts.out_of_budget, " images in which something was left out for want of time"));
   return lines;
 }
 

@@ -22,14 +22,16 @@ class CornerFrontEnd final : public FrontEnd {
 
   /// Landmarks first, then candidates and new corners at the pose that these corrected. Allocates nothing in
   /// a steady state.
-  Seen see(const Picture& picture) override { return &see(*picture); }
+  Seen see(const SharedImage& frame) override { return &see(*frame); }
   const Correction& see(const ImageView& image);
 
   [[nodiscard]] std::span<const FunctionBlocks::Row> blocks() const override {
     return tracker_.blocks().rows();
   }
   [[nodiscard]] std::vector<std::string> notes(std::span<const Innovation> innovations) const override;
-  [[nodiscard]] std::span<const vision::Look> looks() const override { return tracker_.looks(); }
+  [[nodiscard]] std::span<const vision::SearchRecord> search_records() const override {
+    return tracker_.search_records();
+  }
   [[nodiscard]] std::vector<LandmarkPatch> patches() const override { return tracker_.patches(); }
   [[nodiscard]] vision::TrackerCounts tracker_counts() const override { return tracker_.counts(); }
 
@@ -37,7 +39,7 @@ class CornerFrontEnd final : public FrontEnd {
   void remember(std::span<const LandmarkPatch> patches) { tracker_.remember(patches); }
 
  private:
-  const Correction& correct(const vision::Sightings& sightings);
+  const Correction& correct(const vision::SearchOutcome& observations);
   void leave_time();
 
   PixelSlam& filter_;
@@ -47,7 +49,7 @@ class CornerFrontEnd final : public FrontEnd {
   std::vector<Innovation> innovations_;
   Correction correction_;
   Stopwatch stopwatch_;
-  Duration filter_took_{0};  ///< in this picture
+  Duration filter_took_{0};  ///< in this image
   Duration filter_takes_{0};
 };
 

@@ -11,16 +11,16 @@
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/core/grey_image.hpp"
 #include "waymark/core/map_state.hpp"
-#include "waymark/vision/look.hpp"
+#include "waymark/vision/search_record.hpp"
 #include "waymark/vision/tracker_counts.hpp"
 
 namespace waymark {
 
-/// What looks into pictures for a filter. The pipeline announces each picture that fits as soon as it
+/// What looks into images for a filter. The pipeline announces each image that fits as soon as it
 /// arrives, and then either has it seen when the filter has reached its stamp or drops it.
 class FrontEnd {
  public:
-  using Picture = std::shared_ptr<const GreyImage>;
+  using SharedImage = std::shared_ptr<const GreyImage>;
 
   /// What was seen: observations for the filter, which join those of other sensors of the same stamp; or what
   /// the filter made of it where the front end corrects the filter itself. Valid until the next call.
@@ -31,19 +31,19 @@ class FrontEnd {
   FrontEnd& operator=(const FrontEnd&) = delete;
   virtual ~FrontEnd() = default;
 
-  /// Has it the size of the camera's pictures?
+  /// Has it the size of the camera's images?
   [[nodiscard]] virtual bool fits(const ImageView& image) const = 0;
-  /// Does see() correct the filter? Then observations that come with a picture go before it.
+  /// Does see() correct the filter? Then observations that come with an image go before it.
   [[nodiscard]] virtual bool corrects_filter() const = 0;
-  /// Does it take what another program found in a picture?
+  /// Does it take what another program found in an image?
   [[nodiscard]] virtual bool takes_outlines() const { return false; }
 
-  /// A picture that will be seen or dropped: it may be looked into from now on.
-  virtual void announce(const Picture& /*picture*/) {}
-  virtual void drop(const Picture& /*picture*/) {}
+  /// An image that will be seen or dropped: it may be looked into from now on.
+  virtual void announce(const SharedImage& /*image*/) {}
+  virtual void drop(const SharedImage& /*image*/) {}
 
-  /// Looks into a picture that fits, taken at the pose that the filter has reached.
-  virtual Seen see(const Picture& picture) = 0;
+  /// Looks into an image that fits, taken at the pose that the filter has reached.
+  virtual Seen see(const SharedImage& frame) = 0;
   /// The observations where another program has looked. Valid until the next call.
   virtual std::span<const Observation> see(const MarkerOutlines& /*outlines*/) { return {}; }
 
@@ -52,8 +52,8 @@ class FrontEnd {
   /// What was not used and why, and what looks wrong in view of what the filter made of it; one line each.
   [[nodiscard]] virtual std::vector<std::string> notes(std::span<const Innovation> innovations) const = 0;
 
-  /// What became of everything that was looked for in the last picture, where it looks for something.
-  [[nodiscard]] virtual std::span<const vision::Look> looks() const { return {}; }
+  /// What became of everything that was looked for in the last image, where it looks for something.
+  [[nodiscard]] virtual std::span<const vision::SearchRecord> search_records() const { return {}; }
   /// What landmarks look like, where it remembers that. Allocates.
   [[nodiscard]] virtual std::vector<LandmarkPatch> patches() const { return {}; }
   [[nodiscard]] virtual vision::TrackerCounts tracker_counts() const { return {}; }

@@ -38,7 +38,7 @@ bool is_odometry(const EventContent& content) {
          std::holds_alternative<Steering>(content) || std::holds_alternative<OdometryPose>(content);
 }
 
-bool tells_motion(const EventContent& content) {
+bool measures_motion(const EventContent& content) {
   return is_odometry(content) || std::holds_alternative<YawRate>(content);
 }
 
@@ -81,7 +81,7 @@ Motion Odometer::advance(Stamp stamp, const Event* next, const Event* next_yaw_r
 }
 
 void Odometer::take_bias_out(Pose2& increment, double dt_s) {
-  turn_bias_.look_at(increment, dt_s);
+  turn_bias_.observe(increment, dt_s);
   const double missing_radps = to_radians(options_.turn_bias_degps) - turn_bias_.rate_radps();
   if (missing_radps != 0.0) increment = turned_more(increment, missing_radps * dt_s, options_.arc);
 }

@@ -17,7 +17,7 @@ enum class OdometryKind { kWheels, kVelocity, kSteering, kPose };
 /// Any odometry that this program can turn into motion.
 [[nodiscard]] bool is_odometry(const EventContent& content);
 /// Odometry, or what a gyro adds to it.
-[[nodiscard]] bool tells_motion(const EventContent& content);
+[[nodiscard]] bool measures_motion(const EventContent& content);
 
 /// Follows a quantity that is sampled (cumulative encoder angles, a dead-reckoned pose): its value at any
 /// stamp, by interpolation up to the next sample where that is known, else at the last rate for at most

@@ -21,7 +21,7 @@ std::optional<Measurement> part(const Measurement& value, Observe observe) {
     case Observe::kPixel:
       return std::holds_alternative<Pixel>(value) ? std::optional(value) : std::nullopt;
     case Observe::kMarkers:
-      return std::nullopt;  // they are seen in pictures
+      return std::nullopt;  // they are seen in images
   }
   return std::nullopt;
 }
@@ -81,7 +81,7 @@ void Pipeline::process_until(Stamp stamp) {
 
 /// Stamps an event with the moment that it is of. False: it is not used.
 bool Pipeline::accept(Event& event) {
-  if (!is_observed(event.content) && !tells_motion(event.content)) return false;
+  if (!is_observed(event.content) && !measures_motion(event.content)) return false;
   if (event.stream.robot != robot_.value_or(event.stream.robot)) {
     ++counts_.other_robots;
     return false;
@@ -110,7 +110,7 @@ bool Pipeline::is_observed(const EventContent& content) const {
           std::holds_alternative<MarkerOutlines>(content));
 }
 
-/// The front end may look into a picture while that waits for its turn.
+/// The front end may look into an image while that waits for its turn.
 void Pipeline::announce(const Event& event) {
   const auto* image = std::get_if<Image>(&event.content);
   if (image != nullptr && front_end_ != nullptr && image->pixels && front_end_->fits(*image->pixels))
@@ -162,7 +162,7 @@ void Pipeline::process_front_group() {
       collect(*observations);
     } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
       ++counts_.outlines;
-      ++counts_.pictures;
+      ++counts_.images;
       collect_seen(front_end_->see(*outlines));
     } else if (const auto* image = std::get_if<Image>(&event.content)) {
       take(*image);
@@ -172,30 +172,30 @@ void Pipeline::process_front_group() {
     }
   }
   const Correction* correction = correct();
-  Step step{stamp, filter_.pose(), dead_reckoning_, motion_, batch_, correction, picture_.get(), {}};
+  Step step{stamp, filter_.pose(), dead_reckoning_, motion_, batch_, correction, image_.get(), {}};
   if (observed) step.cpu = stopwatch_.stop();
   processed_ = stamp;
   sink_(step);
-  if (picture_) last_picture_ = std::exchange(picture_, nullptr);
+  if (image_) last_image_ = std::exchange(image_, nullptr);
 }
 
-/// Pixels that come as observations are a front end's work done elsewhere: they go before a picture.
+/// Pixels that come as observations are a front end's work done elsewhere: they go before an image.
 const Correction* Pipeline::correct() {
-  if (picture_ && front_end_->corrects_filter() && !batch_.empty()) picture_.reset();
-  const Correction* correction = picture_ ? see_picture() : nullptr;
+  if (image_ && front_end_->corrects_filter() && !batch_.empty()) image_.reset();
+  const Correction* correction = image_ ? see_image() : nullptr;
   return batch_.empty() ? correction : &filter_.correct(batch_);
 }
 
 /// Puts what is seen into the batch, or returns what the filter made of it.
-const Correction* Pipeline::see_picture() {
-  ++counts_.pictures;
-  const FrontEnd::Seen seen = front_end_->see(picture_);
+const Correction* Pipeline::see_image() {
+  ++counts_.images;
+  const FrontEnd::Seen seen = front_end_->see(image_);
   if (const auto* correction = std::get_if<const Correction*>(&seen)) {
     counts_.observations += std::ssize((*correction)->innovations);
     return *correction;
   }
   collect_seen(std::get<std::span<const Observation>>(seen));
-  last_picture_ = std::exchange(picture_, nullptr);
+  last_image_ = std::exchange(image_, nullptr);
   return nullptr;
 }
 
@@ -236,16 +236,16 @@ void Pipeline::collect(const Observations& observations) {
   }
 }
 
-/// A camera that hangs gives one picture again and again, under new stamps: believing it would stop the
+/// A camera that hangs gives one image again and again, under new stamps: believing it would stop the
 /// robot.
 void Pipeline::take(const Image& image) {
   if (!image.pixels || !front_end_->fits(*image.pixels)) {
     ++counts_.misfits;
-  } else if (picture_ || (last_picture_ && *last_picture_ == *image.pixels)) {
+  } else if (image_ || (last_image_ && *last_image_ == *image.pixels)) {
     ++counts_.repeats;
     front_end_->drop(image.pixels);
   } else {
-    picture_ = image.pixels;
+    image_ = image.pixels;
   }
 }
 

@@ -27,21 +27,21 @@ struct Step {
   Motion motion;                              ///< of the odometry since the step before
   std::span<const Observation> observations;  ///< as the filter got them. Valid during the call only.
   const Correction* correction = nullptr;     ///< null: nothing was observed. Valid during the call only.
-  const GreyImage* picture = nullptr;         ///< what the front end looked into, if anything. Likewise.
+  const GreyImage* frame = nullptr;           ///< what the front end looked into, if anything. Likewise.
   Duration cpu{0};  ///< of this thread, where something was observed: from prediction to correction
 };
 
 /// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
 /// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events of a file
 /// are pushed and may arrive late by up to the reordering window; live ones are held, and processed until
-/// each stream's horizon, so that no pose waits longer than it must. Pictures go to the front end where there
-/// is one, which may begin with them as soon as they arrive; a picture that shows what cannot be, or nothing
+/// each stream's horizon, so that no pose waits longer than it must. Images go to the front end where there
+/// is one, which may begin with them as soon as they arrive; an image that shows what cannot be, or nothing
 /// new, is passed over and the robot goes on by dead reckoning. Truth is not its business and is ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;
 
-  /// `front_end` looks into pictures; without one they are ignored. It and the filter must outlive the
+  /// `front_end` looks into images; without one they are ignored. It and the filter must outlive the
   /// pipeline.
   Pipeline(Filter& filter, const PipelineOptions& options, const OdometryOptions& odometry,
            const LandmarkSensor& sensor, Observe observe, Sink sink, FrontEnd* front_end = nullptr);
@@ -74,7 +74,7 @@ class Pipeline {
   void take(const Image& image);
   void collect_seen(std::span<const Observation> seen);
   [[nodiscard]] const Correction* correct();
-  [[nodiscard]] const Correction* see_picture();
+  [[nodiscard]] const Correction* see_image();
   [[nodiscard]] bool is_observed(const EventContent& content) const;
   [[nodiscard]] const Event* next_odometry() const;
   [[nodiscard]] const Event* next_yaw_rate() const;
@@ -84,7 +84,7 @@ class Pipeline {
   LandmarkSensor sensor_;
   Observe observe_;
   Sink sink_;
-  FrontEnd* front_end_;  ///< null: nothing looks into pictures
+  FrontEnd* front_end_;  ///< null: nothing looks into images
   Odometer odometer_;
   Duration window_;
   Duration delay_;
@@ -95,8 +95,8 @@ class Pipeline {
   std::optional<std::uint16_t> robot_;  // of the first event
   std::optional<Stamp> processed_;
   std::vector<Observation> batch_;
-  std::shared_ptr<const GreyImage> picture_;  // of the stamp that is being processed
-  std::shared_ptr<const GreyImage> last_picture_;
+  std::shared_ptr<const GreyImage> image_;  // of the stamp that is being processed
+  std::shared_ptr<const GreyImage> last_image_;
   Pose2 dead_reckoning_;
   Motion motion_;  // to the stamp that is being processed
   Stopwatch stopwatch_;

@@ -15,10 +15,10 @@ struct PipelineCounts {
   std::int64_t other_robots = 0;     ///< events of another robot than the first event's
   std::int64_t robots_seen = 0;      ///< observations of other robots, which are no landmarks
   std::int64_t before_odometry = 0;  ///< observed before the first odometry: used, at the start pose
-  std::int64_t pictures = 0;         ///< looked into
+  std::int64_t images = 0;           ///< looked into
   std::int64_t outlines = 0;         ///< of these what another program looked into: corners of markers
-  std::int64_t misfits = 0;          ///< pictures without pixels or of another size than the camera's
-  std::int64_t repeats = 0;          ///< pictures with the stamp or all the pixels of the one before
+  std::int64_t misfits = 0;          ///< images without pixels or of another size than the camera's
+  std::int64_t repeats = 0;          ///< images with the stamp or all the pixels of the one before
   int odometry_gaps = 0;
 };
 

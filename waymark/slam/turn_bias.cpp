@@ -9,7 +9,7 @@ bool TurnBias::stands(const Pose2& increment, double dt_s) const {
          std::abs(increment.theta_rad) < standing_.below_radps * dt_s;
 }
 
-void TurnBias::look_at(const Pose2& increment, double dt_s) {
+void TurnBias::observe(const Pose2& increment, double dt_s) {
   if (!stands(increment, dt_s)) return;
   turned_rad_ += increment.theta_rad;
   stood_s_ += dt_s;

@@ -14,7 +14,7 @@ class TurnBias {
 
   /// Learns from a step that took so long, if the robot stood. One that is exactly zero says nothing: it may
   /// as well be a gap in the odometry.
-  void look_at(const Pose2& increment, double dt_s);
+  void observe(const Pose2& increment, double dt_s);
 
   /// rad/s; 0 as long as the robot has not stood.
   [[nodiscard]] double rate_radps() const { return stood_s_ > 0.0 ? turned_rad_ / stood_s_ : 0.0; }

@@ -9,7 +9,7 @@ namespace waymark::smooth {
 
 Calibration calibration_sigmas(const SmoothOptions& options, const SensorErrors& errors, Observe observe) {
   Calibration sigmas;
-  sigmas[kSpeedScale] = tells_size(observe, errors) ? options.speed_scale_sigma : 0.0;
+  sigmas[kSpeedScale] = observes_scale(observe, errors) ? options.speed_scale_sigma : 0.0;
   sigmas[kTurnScale] = options.turn_scale_sigma;
   sigmas[kTurnBias] = to_radians(options.turn_bias_sigma_degps);
   sigmas[kTurnPerMetre] = to_radians(options.turn_per_m_sigma_deg);

@@ -40,9 +40,9 @@ Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, c
   return predicted;
 }
 
-/// Where the robot was when a late sighting was made, from where it was at its stamp.
-Pose2 moved_back(const Sighting& sighting, const Calibration& c) {
-  const Eigen::Vector3d back = -c[kDelay] * sighting.velocity;
+/// Where the robot was when a late observation was made, from where it was at its stamp.
+Pose2 relinearized_to_prior(const ObservationEdge& observation, const Calibration& c) {
+  const Eigen::Vector3d back = -c[kDelay] * observation.velocity;
   return {back.x(), back.y(), back.z()};
 }
 
@@ -57,13 +57,13 @@ void account_for_delay(Predicted& predicted, const Eigen::Vector3d& velocity, co
 
 /// Rows of a prediction, divided by the square root of their covariance.
 template <int Dim>
-SightingFactor whiten(const Predicted& predicted, Eigen::Index first_row,
-                      const Eigen::Matrix<double, Dim, Dim>& covariance) {
+ObservationFactor whiten(const Predicted& predicted, Eigen::Index first_row,
+                         const Eigen::Matrix<double, Dim, Dim>& covariance) {
   const Eigen::LLT<Eigen::Matrix<double, Dim, Dim>> root(covariance);
   const auto divide = [&](const auto& rows) {
     return root.matrixL().solve(rows.template middleRows<Dim>(first_row)).eval();
   };
-  SightingFactor factor;
+  ObservationFactor factor;
   factor.dof = Dim;
   factor.residual.template head<Dim>() = divide(predicted.residual);
   factor.J_pose.template topRows<Dim>() = divide(predicted.model.H_pose);
@@ -76,11 +76,11 @@ using Scalar = Eigen::Matrix<double, 1, 1>;
 
 }  // namespace
 
-LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
-                        const CalibratedMotion& measured) {
+OdometryFactor linearize_odometry(const Pose2& T_world_before, const Pose2& T_world_after,
+                                  const CalibratedMotion& measured) {
   const Pose2 between = T_world_before.inverse() * T_world_after;
   const Eigen::Matrix2d Rt = T_world_before.rotation().transpose();
-  LegFactor factor;
+  OdometryFactor factor;
   factor.residual = difference(between, measured.increment);
   factor.J_after.setIdentity();
   factor.J_after.topLeftCorner<2, 2>() = Rt;
@@ -90,8 +90,8 @@ LegFactor linearize_leg(const Pose2& T_world_before, const Pose2& T_world_after,
   return factor;
 }
 
-LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
-                      const Calibration& calibration) {
+OdometryFactor whiten_by_error_source(OdometryFactor factor, const Eigen::Vector3d& measured_part,
+                                      const Calibration& calibration) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     const CalibrationIndex which = i == 2 ? kTurnScale : kSpeedScale;
     const double scale = 1.0 + calibration[which];
@@ -106,23 +106,23 @@ LegFactor by_who_errs(LegFactor factor, const Eigen::Vector3d& measured_part,
   return factor;
 }
 
-SightingFactor linearize_sighting(const Sighting& sighting, const Pose2& T_world_robot,
-                                  const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
-                                  const Calibration& calibration) {
-  const Pose2 T_world_seen = T_world_robot * moved_back(sighting, calibration);
+ObservationFactor linearize_observation(const ObservationEdge& observation, const Pose2& T_world_robot,
+                                        const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
+                                        const Calibration& calibration) {
+  const Pose2 T_world_seen = T_world_robot * relinearized_to_prior(observation, calibration);
   const Pose2 T_world_sensor = T_world_seen * moved_mount(T_robot_sensor, calibration);
   if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
   const auto predicted = [&](double range_m, double bearing_rad) {
     Predicted seen = predict({range_m, bearing_rad}, T_world_seen, T_robot_sensor, p_world, calibration);
-    account_for_delay(seen, sighting.velocity, T_world_robot, T_world_seen);
+    account_for_delay(seen, observation.velocity, T_world_robot, T_world_seen);
     return seen;
   };
-  const Eigen::Matrix2d& R = sighting.covariance;
-  if (const auto* z = std::get_if<RangeBearing>(&sighting.value))
+  const Eigen::Matrix2d& R = observation.covariance;
+  if (const auto* z = std::get_if<RangeBearing>(&observation.value))
     return whiten<2>(predicted(z->range_m, z->bearing_rad), 0, R);
-  if (const auto* z = std::get_if<Range>(&sighting.value))
+  if (const auto* z = std::get_if<Range>(&observation.value))
     return whiten<1>(predicted(z->range_m, 0.0), 0, Scalar(R(0, 0)));
-  if (const auto* z = std::get_if<Bearing>(&sighting.value))
+  if (const auto* z = std::get_if<Bearing>(&observation.value))
     return whiten<1>(predicted(0.0, z->bearing_rad), 1, Scalar(R(0, 0)));
   return {};
 }

@@ -17,7 +17,7 @@ struct OdometryStep {
 };
 
 /// What leads from one pose to the next: steps of the odometry, and the covariance of their sum.
-struct Leg {
+struct KeyframeInterval {
   std::vector<OdometryStep> steps;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Of its variances in x, y and theta what is errors of the measurement, and not a robot that strays from
@@ -25,8 +25,8 @@ struct Leg {
   Eigen::Vector3d measured_part = Eigen::Vector3d::Ones();
 };
 
-/// One sighting of a landmark; its covariance in the layout of Observation::covariance.
-struct Sighting {
+/// One observation of a landmark; its covariance in the layout of Observation::covariance.
+struct ObservationEdge {
   int pose = 0;
   int landmark = 0;
   Measurement value;
@@ -43,11 +43,12 @@ struct Estimate {
   Calibration calibration = Calibration::Zero();
 };
 
-/// Everything that one log says: legs that join poses (one fewer than these), and sightings of landmarks.
+/// Everything that one log says: intervals that join poses (one fewer than these), and observations of
+/// landmarks.
 struct Graph {
   Pose2 T_robot_sensor;
-  std::vector<Leg> legs;
-  std::vector<Sighting> sightings;
+  std::vector<KeyframeInterval> intervals;
+  std::vector<ObservationEdge> observations;
   Calibration calibration_mean = Calibration::Zero();    ///< what it is taken to be before the log
   Calibration calibration_sigmas = Calibration::Zero();  ///< how surely; 0: is not estimated
   /// How far, as a standard deviation, landmarks may be from where they start: what few bearings or ranges do
@@ -55,7 +56,7 @@ struct Graph {
   double landmark_sigma_m = 1e3;
 };
 
-/// The motion of a leg by a calibration.
-[[nodiscard]] CalibratedMotion motion_of(const Leg& leg, const Calibration& calibration);
+/// The motion of an interval by a calibration.
+[[nodiscard]] CalibratedMotion motion_of(const KeyframeInterval& interval, const Calibration& calibration);
 
 }  // namespace waymark::smooth

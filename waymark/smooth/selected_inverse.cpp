@@ -4,14 +4,14 @@
 
 namespace waymark::smooth {
 
-std::optional<SelectedInverse> SelectedInverse::compute(const SparseCholesky& factor, double most_work) {
+std::optional<SelectedInverse> SelectedInverse::compute(const SparseCholesky& factor, double max_work) {
   SelectedInverse inverse(factor);
   double work = 0.0;
   for (Eigen::Index column = 0; column < inverse.Z_.cols(); ++column) {
     const auto entries = static_cast<double>(inverse.Z_.col(column).nonZeros());
     work += entries * entries;
   }
-  if (work > most_work) return std::nullopt;
+  if (work > max_work) return std::nullopt;
   for (Eigen::Index column = inverse.Z_.cols() - 1; column >= 0; --column) inverse.fill_column(column);
   return inverse;
 }

@@ -14,9 +14,9 @@ using SparseCholesky = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::
 /// Kaess and Dellaert 2009).
 class SelectedInverse {
  public:
-  /// Nothing if that takes more than `most_work` multiplications: sum over columns of the square of their
+  /// Nothing if that takes more than `max_work` multiplications: sum over columns of the square of their
   /// entries.
-  [[nodiscard]] static std::optional<SelectedInverse> compute(const SparseCholesky& factor, double most_work);
+  [[nodiscard]] static std::optional<SelectedInverse> compute(const SparseCholesky& factor, double max_work);
 
   /// An entry within the pattern.
   [[nodiscard]] double operator()(Eigen::Index row, Eigen::Index column) const;

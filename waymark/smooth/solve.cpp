@@ -15,8 +15,8 @@ namespace waymark::smooth {
 namespace {
 
 // Odometry that claims to be better than this in some direction is not.
-constexpr double kLeastLegSigma_m = 1e-4;
-constexpr double kLeastLegSigma_rad = 1e-5;
+constexpr double kMinIntervalSigma_m = 1e-4;
+constexpr double kMinIntervalSigma_rad = 1e-5;
 constexpr double kAnyWeight = 1e9;
 
 /// Student-t: the cost of a squared error, and its weight.
@@ -135,18 +135,18 @@ class Solver {
         options_(options),
         robust_{options.robust_dof},
         layout_(graph, estimate_) {
-    for (const Leg& leg : graph.legs) {
-      Eigen::Matrix3d Q = leg.covariance;
-      const Eigen::Vector3d least(kLeastLegSigma_m, kLeastLegSigma_m, kLeastLegSigma_rad);
+    for (const KeyframeInterval& interval : graph.intervals) {
+      Eigen::Matrix3d Q = interval.covariance;
+      const Eigen::Vector3d least(kMinIntervalSigma_m, kMinIntervalSigma_m, kMinIntervalSigma_rad);
       Q.diagonal() += least.cwiseAbs2();
-      leg_information_.emplace_back(Q.llt().solve(Eigen::Matrix3d::Identity()));
+      interval_information_.emplace_back(Q.llt().solve(Eigen::Matrix3d::Identity()));
     }
   }
 
   Solution run() {
     Solution solution;
     solution.cost_before = solution.cost = cost(estimate_);
-    for (; solution.iterations < options_.most_iterations && !solution.converged; ++solution.iterations)
+    for (; solution.iterations < options_.max_iterations && !solution.converged; ++solution.iterations)
       solution.converged = !step(solution.cost);
     add_covariances(solution);
     solution.estimate = estimate_;
@@ -156,11 +156,11 @@ class Solver {
  private:
   /// Goes one step down; false: there is no way down that is worth it.
   bool step(double& cost_now) {
-    constexpr double kMostDamping = 1e8;
+    constexpr double kMaxDamping = 1e8;
     constexpr double kWorthIt = 1e-6;
     const NormalEquations equations = linearize();
     const SparseMatrix H = equations.H();
-    for (; damping_ < kMostDamping; damping_ *= 10.0) {
+    for (; damping_ < kMaxDamping; damping_ *= 10.0) {
       if (!factorize(H, damping_)) continue;
       Estimate moved = moved_by(-factor_.solve(equations.g()));
       const double cost_there = cost(moved);
@@ -182,11 +182,12 @@ class Solver {
     return factor_.info() == Eigen::Success && (factor_.vectorD().array() > 0.0).all();
   }
 
-  /// `most_weight`: what a measurement counts at most, in measurements with the stated noise.
-  [[nodiscard]] NormalEquations linearize(double most_weight = kAnyWeight) const {
+  /// `max_weight`: what a measurement counts at most, in measurements with the stated noise.
+  [[nodiscard]] NormalEquations linearize(double max_weight = kAnyWeight) const {
     NormalEquations equations(layout_);
-    for (std::size_t i = 0; i < graph_.legs.size(); ++i) add_leg(i, most_weight, equations);
-    for (const Sighting& sighting : graph_.sightings) add_sighting(sighting, most_weight, equations);
+    for (std::size_t i = 0; i < graph_.intervals.size(); ++i) add_interval(i, max_weight, equations);
+    for (const ObservationEdge& observation : graph_.observations)
+      add_observation(observation, max_weight, equations);
     for (std::size_t i = 0; i < landmarks_before_.size(); ++i) add_prior(i, equations);
     for (std::size_t i = 0; i < layout_.estimated().size(); ++i) {
       const Eigen::Index which = layout_.estimated()[i];
@@ -205,10 +206,10 @@ class Solver {
       equations.add_prior(layout_.landmark(landmark) + axis, away_m[axis], information);
   }
 
-  void add_leg(std::size_t i, double most_weight, NormalEquations& equations) const {
-    const LegFactor f = factor_of_leg(estimate_, i);
-    const Eigen::Matrix3d& information = leg_information_[i];
-    const double weight = std::min(most_weight, robust_.weight(f.residual.dot(information * f.residual), 3));
+  void add_interval(std::size_t i, double max_weight, NormalEquations& equations) const {
+    const OdometryFactor f = factor_of_interval(estimate_, i);
+    const Eigen::Matrix3d& information = interval_information_[i];
+    const double weight = std::min(max_weight, robust_.weight(f.residual.dot(information * f.residual), 3));
     const Eigen::Matrix3d U = information.llt().matrixU();
     equations.add<3>(weight, U * f.residual,
                      {{Layout::pose(i), U * f.J_before},
@@ -216,36 +217,37 @@ class Solver {
                       equations.calibration<3>(U * f.J_calibration)});
   }
 
-  void add_sighting(const Sighting& sighting, double most_weight, NormalEquations& equations) const {
-    const SightingFactor f = factor_of(estimate_, sighting);
+  void add_observation(const ObservationEdge& observation, double max_weight,
+                       NormalEquations& equations) const {
+    const ObservationFactor f = factor_of(estimate_, observation);
     if (f.dof == 0) return;
-    const double weight = std::min(most_weight, robust_.weight(f.residual.squaredNorm(), f.dof));
+    const double weight = std::min(max_weight, robust_.weight(f.residual.squaredNorm(), f.dof));
     equations.add<2>(weight, f.residual,
-                     {{Layout::pose(static_cast<std::size_t>(sighting.pose)), f.J_pose},
-                      {layout_.landmark(static_cast<std::size_t>(sighting.landmark)), f.J_landmark},
+                     {{Layout::pose(static_cast<std::size_t>(observation.pose)), f.J_pose},
+                      {layout_.landmark(static_cast<std::size_t>(observation.landmark)), f.J_landmark},
                       equations.calibration<2>(f.J_calibration)});
   }
 
-  [[nodiscard]] LegFactor factor_of_leg(const Estimate& at, std::size_t i) const {
-    const LegFactor factor =
-        linearize_leg(at.poses[i], at.poses[i + 1], motion_of(graph_.legs[i], at.calibration));
-    return by_who_errs(factor, graph_.legs[i].measured_part, at.calibration);
+  [[nodiscard]] OdometryFactor factor_of_interval(const Estimate& at, std::size_t i) const {
+    const OdometryFactor factor =
+        linearize_odometry(at.poses[i], at.poses[i + 1], motion_of(graph_.intervals[i], at.calibration));
+    return whiten_by_error_source(factor, graph_.intervals[i].measured_part, at.calibration);
   }
 
-  [[nodiscard]] SightingFactor factor_of(const Estimate& at, const Sighting& sighting) const {
-    return linearize_sighting(sighting, at.poses[static_cast<std::size_t>(sighting.pose)],
-                              graph_.T_robot_sensor,
-                              at.landmarks[static_cast<std::size_t>(sighting.landmark)], at.calibration);
+  [[nodiscard]] ObservationFactor factor_of(const Estimate& at, const ObservationEdge& observation) const {
+    return linearize_observation(
+        observation, at.poses[static_cast<std::size_t>(observation.pose)], graph_.T_robot_sensor,
+        at.landmarks[static_cast<std::size_t>(observation.landmark)], at.calibration);
   }
 
   [[nodiscard]] double cost(const Estimate& at) const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < graph_.legs.size(); ++i) {
-      const Eigen::Vector3d residual = factor_of_leg(at, i).residual;
-      sum += robust_.cost(residual.dot(leg_information_[i] * residual), 3);
+    for (std::size_t i = 0; i < graph_.intervals.size(); ++i) {
+      const Eigen::Vector3d residual = factor_of_interval(at, i).residual;
+      sum += robust_.cost(residual.dot(interval_information_[i] * residual), 3);
     }
-    for (const Sighting& sighting : graph_.sightings) {
-      const SightingFactor f = factor_of(at, sighting);
+    for (const ObservationEdge& observation : graph_.observations) {
+      const ObservationFactor f = factor_of(at, observation);
       sum += robust_.cost(f.residual.squaredNorm(), f.dof);
     }
     for (std::size_t i = 0; i < landmarks_before_.size(); ++i)
@@ -273,41 +275,41 @@ class Solver {
     // Small errors have weights above 1 and yet tell no more than what has the stated noise.
     if (layout_.size() == 0 || !factorize(linearize(1.0).H(), 0.0)) return;
     add_calibration_covariance(solution);
-    const auto P = SelectedInverse::compute(factor_, options_.most_covariance_work);
+    const auto P = SelectedInverse::compute(factor_, options_.max_covariance_work);
     if (!P) return;
     solution.pose_covariances.emplace_back(Eigen::Matrix3d::Zero());
     for (std::size_t i = 1; i < estimate_.poses.size(); ++i)
       solution.pose_covariances.push_back(marginal<3>(*P, Layout::pose(i)));
     for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
-    for (const Sighting& sighting : graph_.sightings)
-      solution.remainders.push_back(remainder_of(sighting, *P));
-    for (std::size_t i = 0; i < graph_.legs.size(); ++i)
-      solution.leg_remainders.push_back(remainder_of_leg(i, *P));
+    for (const ObservationEdge& observation : graph_.observations)
+      solution.remainders.push_back(remainder_of(observation, *P));
+    for (std::size_t i = 0; i < graph_.intervals.size(); ++i)
+      solution.interval_remainders.push_back(remainder_of_interval(i, *P));
   }
 
-  /// All variables that a sighting depends on are joined in the pattern of the inverse.
-  [[nodiscard]] Remainder remainder_of(const Sighting& sighting, const SelectedInverse& P) const {
-    const SightingFactor f = factor_of(estimate_, sighting);
+  /// All variables that an observation depends on are joined in the pattern of the inverse.
+  [[nodiscard]] Remainder remainder_of(const ObservationEdge& observation, const SelectedInverse& P) const {
+    const ObservationFactor f = factor_of(estimate_, observation);
     Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + std::ssize(layout_.estimated()));
     J << f.J_pose, f.J_landmark, f.J_calibration(Eigen::all, layout_.estimated());
-    const Eigen::Matrix2d followed =
-        followed_by(P, J,
-                    with_calibration({{Layout::pose(static_cast<std::size_t>(sighting.pose)), 3},
-                                      {layout_.landmark(static_cast<std::size_t>(sighting.landmark)), 2}}));
-    const Eigen::Vector2d stated = sighting.covariance.diagonal();
+    const Eigen::Matrix2d followed = followed_by(
+        P, J,
+        with_calibration({{Layout::pose(static_cast<std::size_t>(observation.pose)), 3},
+                          {layout_.landmark(static_cast<std::size_t>(observation.landmark)), 2}}));
+    const Eigen::Vector2d stated = observation.covariance.diagonal();
     if (f.dof < 2) return {std::sqrt(stated[0]) * f.residual, stated[0] * followed.diagonal(), stated};
-    const Eigen::Matrix2d root = sighting.covariance.llt().matrixL();
+    const Eigen::Matrix2d root = observation.covariance.llt().matrixL();
     return {root * f.residual, (root * followed * root.transpose()).diagonal(), stated};
   }
 
-  [[nodiscard]] LegRemainder remainder_of_leg(std::size_t i, const SelectedInverse& P) const {
-    const LegFactor f = factor_of_leg(estimate_, i);
+  [[nodiscard]] IntervalRemainder remainder_of_interval(std::size_t i, const SelectedInverse& P) const {
+    const OdometryFactor f = factor_of_interval(estimate_, i);
     Eigen::Matrix<double, 3, Eigen::Dynamic> J(3, 6 + std::ssize(layout_.estimated()));
     J << f.J_before, f.J_after, f.J_calibration(Eigen::all, layout_.estimated());
     return {f.residual,
             followed_by(P, J, with_calibration({{Layout::pose(i), 3}, {Layout::pose(i + 1), 3}})).diagonal(),
-            leg_information_[i].inverse().diagonal()};
+            interval_information_[i].inverse().diagonal()};
   }
 
   /// Where stretches of variables (the first of each, how many) and the calibration stand.
@@ -361,7 +363,7 @@ class Solver {
   SolveOptions options_;
   Robust robust_;
   Layout layout_;
-  std::vector<Eigen::Matrix3d> leg_information_;
+  std::vector<Eigen::Matrix3d> interval_information_;
   SparseCholesky factor_;
   bool analyzed_ = false;
   double damping_ = 1e-6;
@@ -369,9 +371,9 @@ class Solver {
 
 }  // namespace
 
-CalibratedMotion motion_of(const Leg& leg, const Calibration& calibration) {
+CalibratedMotion motion_of(const KeyframeInterval& interval, const Calibration& calibration) {
   CalibratedMotion motion;
-  for (const OdometryStep& step : leg.steps)
+  for (const OdometryStep& step : interval.steps)
     motion = compose(motion, calibrate(step.increment, step.dt_s, calibration));
   return motion;
 }

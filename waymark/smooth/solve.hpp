@@ -9,8 +9,8 @@ namespace waymark::smooth {
 
 struct SolveOptions {
   double robust_dof = 4.0;
-  int most_iterations = 50;
-  double most_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
+  int max_iterations = 50;
+  double max_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
 };
 
 /// What is left over of something measured, predicted - measured, and how much of its variance the estimate
@@ -22,8 +22,8 @@ struct RemainderOf {
   Vector followed = Vector::Zero();  ///< diagonal of H P H^T
   Vector stated = Vector::Ones();    ///< variances by which it was weighed
 };
-using Remainder = RemainderOf<2>;     ///< of range and bearing, or of the one number of a sighting
-using LegRemainder = RemainderOf<3>;  ///< of x, y and theta of a leg
+using Remainder = RemainderOf<2>;          ///< of range and bearing, or of the one number of an observation
+using IntervalRemainder = RemainderOf<3>;  ///< of x, y and theta of an interval
 
 /// The best estimate, how it was found, and how sure it is.
 struct Solution {
@@ -35,8 +35,9 @@ struct Solution {
   /// Of each pose given the first and of each landmark; empty where that would have taken too long.
   std::vector<Eigen::Matrix3d> pose_covariances;
   std::vector<Eigen::Matrix2d> landmark_covariances;
-  std::vector<Remainder> remainders;         ///< of each sighting; empty with the covariances
-  std::vector<LegRemainder> leg_remainders;  ///< of each leg, in the frame of its first pose; likewise
+  std::vector<Remainder> remainders;  ///< of each observation; empty with the covariances
+  std::vector<IntervalRemainder>
+      interval_remainders;  ///< of each interval, in the frame of its first pose; likewise
   Calibration calibration_sigmas = Calibration::Zero();
   CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
 };

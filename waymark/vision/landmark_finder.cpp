@@ -29,20 +29,20 @@ double LandmarkFinder::expected_cost_ns(const Expectation& expected) const {
   return costs_.search_ns + costs_.peak_ns + costs_.window_ns * search_.expected_windows(expected.S);
 }
 
-Finding LandmarkFinder::look_for(const Expectation& expected, const ImageView& image, const CameraPose& here,
-                                 Appearance& appearance) {
-  Finding finding;
-  finding.cost_ns = costs_.search_ns;
-  if (options_.warp && redraw(expected, here, appearance)) finding.cost_ns += costs_.warp_ns;
+SearchResult LandmarkFinder::search_for(const Expectation& expected, const ImageView& image,
+                                        const CameraPose& here, Appearance& appearance) {
+  SearchResult search_result;
+  search_result.cost_ns = costs_.search_ns;
+  if (options_.warp && redraw(expected, here, appearance)) search_result.cost_ns += costs_.warp_ns;
   const Patch& patch = appearance.patch.patch();
   const auto match = search_.find(image, patch, expected.predicted_px, expected.S);
-  finding.cost_ns += costs_.window_ns * static_cast<double>(search_.windows());
-  if (!match) return finding;
-  finding.pixel = Eigen::Vector2d(match->u, match->v);
-  locate(image, patch, *match, finding);
-  if (finding.result != Look::Result::kFound && should_be_seen(expected, image, patch.size))
-    finding.result = Look::Result::kMissed;
-  return finding;
+  search_result.cost_ns += costs_.window_ns * static_cast<double>(search_.windows());
+  if (!match) return search_result;
+  search_result.pixel = Eigen::Vector2d(match->u, match->v);
+  locate(image, patch, *match, search_result);
+  if (search_result.result != SearchRecord::Result::kFound && should_be_seen(expected, image, patch.size))
+    search_result.result = SearchRecord::Result::kMissed;
+  return search_result;
 }
 
 /// Turns and scales the patch to how it should look from here; says whether it had to be drawn.
@@ -58,21 +58,21 @@ bool LandmarkFinder::redraw(const Expectation& expected, const CameraPose& here,
 }
 
 void LandmarkFinder::locate(const ImageView& image, const Patch& patch, const Match& match,
-                            Finding& finding) const {
+                            SearchResult& search_result) const {
   if (!options_.subpixel) {
-    if (match.accepted) finding.result = Look::Result::kFound;
-    finding.R = whole_pixel_covariance();
+    if (match.accepted) search_result.result = SearchRecord::Result::kFound;
+    search_result.R = whole_pixel_covariance();
     return;
   }
-  finding.cost_ns += costs_.peak_ns;
+  search_result.cost_ns += costs_.peak_ns;
   const auto peak =
       find_peak(image, patch, match.u, match.v, search_options_.grey_sigma, search_options_.instructions);
   // At the peak there is no half pixel to be forgiven: what is left comes of surfaces that are not flat.
   if (!peak || peak->zmssd > search_options_.accept_ratio * expected_zmssd(patch, search_options_.grey_sigma))
     return;
-  finding.result = Look::Result::kFound;
-  finding.pixel = peak->pixel;
-  finding.R = peak->R;
+  search_result.result = SearchRecord::Result::kFound;
+  search_result.pixel = peak->pixel;
+  search_result.R = peak->R;
 }
 
 }  // namespace waymark::vision

@@ -8,7 +8,7 @@ namespace waymark::vision {
 /// Something that could be looked for.
 struct Prospect {
   std::size_t expectation = 0;  ///< which one
-  double nats = 0.0;            ///< what a sighting would tell
+  double nats = 0.0;            ///< what an observation would tell
   double cost_ns = 1.0;         ///< what looking for it takes
 
   [[nodiscard]] double usefulness() const { return nats / cost_ns; }

@@ -33,7 +33,7 @@ NewCorners::NewCorners(const NewCornerOptions& options, const CornerOptions& cor
       features_in_(static_cast<std::size_t>(cells())) {
   detector_.reserve(width_px / options.columns + 1, height_px / options.rows + 1);
   strongest_.reserve(kRanked + 1);
-  found_.reserve(static_cast<std::size_t>(options.most_new));
+  found_.reserve(static_cast<std::size_t>(options.max_new));
 }
 
 std::span<const Corner> NewCorners::find(const ImageView& image, std::span<const Eigen::Vector2d> features,
@@ -41,7 +41,7 @@ std::span<const Corner> NewCorners::find(const ImageView& image, std::span<const
   found_.clear();
   const int in_view = static_cast<int>(features.size());
   const int most =
-      std::min({options_.most_new, options_.most_candidates - candidates, options_.wanted - in_view});
+      std::min({options_.max_new, options_.max_candidates - candidates, options_.wanted - in_view});
   const int share = (options_.wanted + cells() - 1) / cells();
   count_features(features);
   for (int tried = 0; tried < cells() && static_cast<int>(found_.size()) < most; ++tried) {

@@ -17,7 +17,7 @@ namespace waymark::vision {
 /// a pixel to spare (Shi and Tomasi 1994): how well the place of the patch can be told in every direction.
 [[nodiscard]] double shi_tomasi_score(const ImageView& image, int u, int v, int patch_px);
 
-/// Looks for new landmarks in those cells of a picture that hold fewer features than their share of what is
+/// Looks for new landmarks in those cells of an image that hold fewer features than their share of what is
 /// wanted, and in no others; begins each time where it ended the time before.
 class NewCorners {
  public:

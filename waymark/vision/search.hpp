@@ -26,7 +26,7 @@ struct EllipseRows {
 void find_ellipse_rows(const ImageView& image, const Eigen::Vector2d& centre, const Eigen::Matrix2d& S,
                        double gate, int patch_size, EllipseRows& ellipse);
 
-/// The ZMSSD that two pictures of one place are expected to have: pixel noise in both, 2 sigma^2 (n - 1), and
+/// The ZMSSD that two images of one place are expected to have: pixel noise in both, 2 sigma^2 (n - 1), and
 /// the place being up to half a pixel beside the window, sum |gradient|^2 / 12 per axis.
 [[nodiscard]] double expected_zmssd(const Patch& patch, double grey_sigma);
 

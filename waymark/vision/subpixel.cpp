@@ -68,18 +68,18 @@ std::optional<SubpixelPeak> find_peak(const ImageView& image, const Patch& patch
   const Eigen::Matrix2d H_inverse = H.inverse();
   const Eigen::Vector2d step = -H_inverse * gradient;
   if (step.cwiseAbs().maxCoeff() > 1.0) return std::nullopt;
-  // Noise against texture, and the noise of one picture against that of the other.
+  // Noise against texture, and the noise of one image against that of the other.
   const double pixels = patch.size * patch.size;
   const double zmssd =
       std::max(c(1, 1) + 0.5 * gradient.dot(step) - zmssd_of_contrast(image, patch, u, v), 0.0);
   const double variance = std::max(grey_sigma * grey_sigma, zmssd / (2.0 * (pixels - 1.0)));
   const Eigen::Matrix2d R =
       4.0 * variance * H_inverse + 2.0 * pixels * variance * variance * H_inverse * H_inverse;
-  return SubpixelPeak{Eigen::Vector2d(u, v) + step, floored(R, kLeastPixelSigma * kLeastPixelSigma), zmssd};
+  return SubpixelPeak{Eigen::Vector2d(u, v) + step, floored(R, kMinPixelSigma * kMinPixelSigma), zmssd};
 }
 
 Eigen::Matrix2d whole_pixel_covariance() {
-  return Eigen::Matrix2d::Identity() * (1.0 / 12.0 + kLeastPixelSigma * kLeastPixelSigma);
+  return Eigen::Matrix2d::Identity() * (1.0 / 12.0 + kMinPixelSigma * kMinPixelSigma);
 }
 
 }  // namespace waymark::vision

@@ -16,12 +16,12 @@ struct SubpixelPeak {
 };
 
 /// No place is claimed to be known better than this.
-inline constexpr double kLeastPixelSigma = 0.1;
+inline constexpr double kMinPixelSigma = 0.1;
 
 /// The bottom of the paraboloid through the ZMSSD of the window at (u, v) and its eight neighbours, and how
-/// well it is known: the curvature of the ZMSSD is 2 sum grad grad^T, so that two pictures with grey noise
+/// well it is known: the curvature of the ZMSSD is 2 sum grad grad^T, so that two images with grey noise
 /// sigma leave R = 2 sigma^2 (sum grad grad^T)^-1 = 4 sigma^2 H^-1, and 2 n sigma^4 H^-2 more where texture
-/// is as weak as noise; at least kLeastPixelSigma in every direction. Where more is left at the bottom than
+/// is as weak as noise; at least kMinPixelSigma in every direction. Where more is left at the bottom than
 /// noise explains (a turned surface, an edge in depth, less sharp from afar), sigma is what explains it.
 /// Nothing where a neighbour leaves the image, or the place is no minimum within a pixel: an edge, which
 /// fixes one direction only, or the border of the search.

@@ -13,18 +13,18 @@
 #include "waymark/models/camera.hpp"
 #include "waymark/vision/frame_budget.hpp"
 #include "waymark/vision/landmark_finder.hpp"
-#include "waymark/vision/look.hpp"
 #include "waymark/vision/match_order.hpp"
 #include "waymark/vision/new_corners.hpp"
 #include "waymark/vision/search.hpp"
+#include "waymark/vision/search_record.hpp"
 #include "waymark/vision/tracker_counts.hpp"
 #include "waymark/vision/tracker_options.hpp"
 #include "waymark/vision/visual_memory.hpp"
 
 namespace waymark::vision {
 
-/// What was found in a picture, and what was looked for in vain. Views into the tracker.
-struct Sightings {
+/// What was found in an image, and what was looked for in vain. Views into the tracker.
+struct SearchOutcome {
   std::span<const Observation> found;
   std::span<const LandmarkId> missed;
 };
@@ -33,23 +33,23 @@ struct Sightings {
 enum class Round { kLandmarks, kCandidates };
 
 /// The camera front end: remembers what landmarks look like, looks for them where they are expected, and
-/// proposes new corners where the picture has none. Per picture one call of track().
+/// proposes new corners where the image has none. Per image one call of track().
 ///
-/// A picture that shows nothing (is_usable()) has no sightings, and nothing counts as missed in it. Without
-/// new landmarks nothing is allocated from the first picture on, nor with them up to VisualMemory::kRoom.
+/// An image that shows nothing (is_usable()) has no observations, and nothing counts as missed in it. Without
+/// new landmarks nothing is allocated from the first image on, nor with them up to VisualMemory::kRoom.
 class Tracker {
  public:
   /// Candidates and new corners are looked for on a thread of their own where `threads` > 1; the results are
   /// the same. Half a ms.
   Tracker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera, int threads);
 
-  /// Looks into a picture, taken at the expected pose: for the landmarks, those that tell most for their cost
+  /// Looks into an image, taken at the expected pose: for the landmarks, those that tell most for their cost
   /// first, within the budget; then for the candidates, and for new corners under new identities. Both times
-  /// correct(round, sightings) says what the filter made of it, as a Correction; what it dropped, and what it
-  /// did not take of the second round, is forgotten. Sightings are valid during that call only.
+  /// correct(round, observations) says what the filter made of it, as a Correction; what it dropped, and what
+  /// it did not take of the second round, is forgotten. Observations are valid during that call only.
   ///
   /// A new corner is the pixel around which its patch is cut, so its own place is certain by definition; it
-  /// claims kLeastPixelSigma, for what later matches against this patch have in common.
+  /// claims kMinPixelSigma, for what later matches against this patch have in common.
   template <class Correct>
   void track(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations,
              const Correct& correct) {
@@ -67,15 +67,15 @@ class Tracker {
   /// How much of the frame's budget others need.
   void leave_time(Duration others) { others_ = others; }
 
-  /// Every expectation in its order, then the new corners, of the last picture.
-  [[nodiscard]] std::span<const Look> looks() const { return looks_; }
+  /// Every expectation in its order, then the new corners, of the last image.
+  [[nodiscard]] std::span<const SearchRecord> search_records() const { return search_records_; }
   [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
   [[nodiscard]] const FunctionBlocks& blocks() const { return blocks_; }
 
  private:
   /// One who looks: for landmarks on the caller's thread, for candidates on the other.
-  struct Seeker {
-    Seeker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera);
+  struct SearchWorker {
+    SearchWorker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera);
     LandmarkFinder finder;
     FrameBudget budget;
     std::vector<Prospect> prospects;
@@ -83,41 +83,41 @@ class Tracker {
     std::vector<LandmarkId> missed;
     bool is_out_of_budget = false;
 
-    [[nodiscard]] Sightings sightings() const { return {found, missed}; }
+    [[nodiscard]] SearchOutcome observations() const { return {found, missed}; }
   };
 
   void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
-  [[nodiscard]] Sightings match();
-  [[nodiscard]] Sightings finish();
+  [[nodiscard]] SearchOutcome match();
+  [[nodiscard]] SearchOutcome finish();
   void learn(const Correction& correction);
   void copy(std::span<const Expectation> expectations);
   void avoid(LandmarkId id);
-  void look_behind();
+  void search_in_background();
   void save_up();
-  void look_for(bool candidates, int most, Seeker& seeker);
-  void gather(bool candidates, Seeker& seeker);
+  void search_for(bool candidates, int most, SearchWorker& worker);
+  void gather(bool candidates, SearchWorker& worker);
   void add_new_corners();
-  [[nodiscard]] Duration budget_behind() const;
-  [[nodiscard]] Duration share_behind() const;
+  [[nodiscard]] Duration background_budget() const;
+  [[nodiscard]] Duration background_share() const;
 
   TrackerOptions options_;
   double grey_sigma_;
   Camera camera_;
   VisualMemory memory_;
   NewCorners new_corners_;
-  Seeker landmarks_, candidates_;
+  SearchWorker landmarks_, candidates_;
   Duration others_{0};
-  Duration behind_{0};  ///< budget of the other thread for this picture
-  Duration saved_{0};   ///< of those before, for what was too dear for one of them
+  Duration background_budget_{0};  ///< budget of the other thread for this image
+  Duration saved_{0};              ///< of those before, for what was too dear for one of them
 
-  // Of the present picture.
+  // Of the present image.
   ImageView image_;
   CameraPose here_;
   bool is_usable_ = false;
   std::vector<Expectation> expectations_;
   std::vector<Appearance*> appearances_;  ///< of each; null where it is not known
   std::vector<Eigen::Matrix2d> R_;        ///< of each that was found
-  std::vector<Look> looks_;
+  std::vector<SearchRecord> search_records_;
   std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be looked for
   int candidates_under_way_ = 0;
   std::span<const Corner> corners_;
@@ -126,7 +126,7 @@ class Tracker {
   std::int32_t next_number_ = 0;
 
   TrackerCounts counts_;
-  Stopwatch stopwatch_behind_;  ///< of whichever thread look_behind() runs on
+  Stopwatch background_stopwatch_;  ///< of whichever thread search_in_background() runs on
   Duration corners_took_{0}, candidates_took_{0};
   FunctionBlocks blocks_{"FB2 corners", "FB4 match", "FB7 match candidates"};  // Vincke Table 1
   Background background_;  ///< last, so that its thread ends before what it works on

@@ -6,9 +6,9 @@ namespace waymark::vision {
 
 /// What happened since the tracker was made.
 struct TrackerCounts {
-  std::int64_t pictures = 0;
-  std::int64_t unusable = 0;       ///< pictures that showed nothing, or were of another size
-  std::int64_t out_of_budget = 0;  ///< pictures in which something was left out for want of time
+  std::int64_t images = 0;
+  std::int64_t unusable = 0;       ///< images that showed nothing, or were of another size
+  std::int64_t out_of_budget = 0;  ///< images in which something was left out for want of time
 };
 
 }  // namespace waymark::vision

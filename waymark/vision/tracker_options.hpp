@@ -9,7 +9,7 @@
 namespace waymark::vision {
 
 struct TrackerOptions {
-  int most_observed = 30;  ///< landmarks looked for in one picture
+  int max_observed = 30;  ///< landmarks looked for in one image
   FinderOptions finder;
   CornerOptions corners;
   NewCornerOptions new_corners;

@@ -24,7 +24,7 @@ function findingRow([key, finding]) {
   return h("tr", {},
     h("th", { scope: "row" }, h("code", {}, key)),
     h("td", { class: "num" }, format.number(finding.before, 5)),
-    h("td", { class: `num ${finding.told ? "" : "untold"}` }, finding.told ? format.number(finding.value, 5) : "as assumed"),
+    h("td", { class: `num ${finding.told ? "" : "unobservable"}` }, finding.told ? format.number(finding.value, 5) : "as assumed"),
     h("td", { class: "num" }, `± ${format.number(finding.sigma, 2)}`),
     h("td", { class: "place" }, range(finding)));
 }

@@ -1,10 +1,10 @@
-// The page of a camera's calibration: may it be trusted, what is it like, and what did each picture say.
+// The page of a camera's calibration: may it be trusted, what is it like, and what did each image say.
 
 import { h, panel, section } from "../report/dom.js";
 import * as format from "../report/format.js";
 import { pageHeader, tile } from "../report/summary.js";
 import { reproduce } from "../report/tables.js";
-import { coverage, errorPicture, magnification } from "./pictures.js";
+import { coverage, errorImage, magnification } from "./images.js";
 
 const px = (value, digits = 2) => (format.isNumber(value) ? `${format.fixed(value, digits)} px` : "–");
 const range = ([low, high]) => `${format.fixed(low, 1)} to ${format.fixed(high, 1)} px`;
@@ -25,7 +25,7 @@ function tiles(data) {
     tile("Reprojection RMS", [format.fixed(data.rms_px, 3), "px"], `${format.count(data.views_used)} views`),
     held && tile("On views left out", [format.fixed(held.rms_px, 3), "px"], `${held.folds} folds, poses fitted, camera not`),
     held && tile("Focal length", [format.fixed((data.intrinsics[0].value + data.intrinsics[1].value) / 2, 1), "px"], `${range(held.focal_px)} without some views`),
-    tile("Picture covered", [format.fixed(100 * data.covered, 0), "%"], "8 × 6 cells with corners in them"),
+    tile("Image covered", [format.fixed(100 * data.covered, 0), "%"], "8 × 6 cells with corners in them"),
   ].filter(Boolean);
   return h("dl", { class: "tiles", style: `--columns: ${list.length}` }, list);
 }
@@ -63,21 +63,21 @@ function viewRow(view, largest, unit) {
 function viewTable(data) {
   const used = data.views.filter(({ verdict: fate }) => fate === "used");
   const largest = Math.max(...used.map((view) => view.rms_px));
-  const missing = data.pictures - data.views.length;
+  const missing = data.images - data.views.length;
   const note = ["Errors are root mean squares of the distance between a corner and where the camera puts it, in pixels; edge is how wide the board's edges are",
     missing > 0 && `${format.count(missing)} frames without the board, or like others, are not listed`].filter(Boolean).join(". ");
   return panel("Views", { note }, h("div", { class: "scroll" }, h("table", { class: "blocks" },
-    h("thead", {}, h("tr", {}, h("th", {}, "Picture"), h("th", { class: "share" }, "Error (px)"),
+    h("thead", {}, h("tr", {}, h("th", {}, "SharedImage"), h("th", { class: "share" }, "Error (px)"),
       ["Left out (px)", "Edge (px)", "Tilt", "Distance"].map((name) => h("th", { class: "num" }, name)), h("th", {}, "Verdict"))),
     h("tbody", {}, data.views.map((view) => viewRow(view, largest, data.has_scale ? "m" : "squares"))))));
 }
 
-function errorPictures(data) {
+function errorImages(data) {
   const times = magnification(data);
   const shown = data.views.filter(({ png }) => png);
-  return panel("Errors in the pictures", { note: `From each corner to where the camera puts it, ${times} times as long as it is` },
-    h("div", { class: "pictures" }, shown.map((view) => h("figure", { class: view.verdict === "used" ? null : "dropped" },
-      errorPicture(view, data, times),
+  return panel("Errors in the images", { note: `From each corner to where the camera puts it, ${times} times as long as it is` },
+    h("div", { class: "images" }, shown.map((view) => h("figure", { class: view.verdict === "used" ? null : "dropped" },
+      errorImage(view, data, times),
       h("figcaption", {}, h("strong", {}, view.name), ` ${view.verdict === "used" ? px(view.rms_px) : view.verdict}`)))));
 }
 
@@ -85,10 +85,10 @@ const data = JSON.parse(document.getElementById("camera-data").textContent);
 const title = "Camera calibration";
 document.title = `${title} · Waymark`;
 document.getElementById("camera").append(...[
-  pageHeader({ title, version: data.version, subtitle: `${format.count(data.views_used)} of ${format.count(data.pictures)} pictures of ${data.width_px} × ${data.height_px} pixels, ${data.board}` }),
+  pageHeader({ title, version: data.version, subtitle: `${format.count(data.views_used)} of ${format.count(data.images)} images of ${data.width_px} × ${data.height_px} pixels, ${data.board}` }),
   verdict(data),
   tiles(data),
   section("Camera", "grid wide-left", coverage(data), intrinsicsTable(data)),
-  section("Pictures", "stack", viewTable(data), errorPictures(data)),
+  section("Images", "stack", viewTable(data), errorImages(data)),
   data.command ? section("Details", "stack", reproduce(data)) : null,
 ].filter(Boolean));

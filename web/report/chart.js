@@ -1,4 +1,4 @@
-// A chart in a panel: frame, axes, scales, saving as a picture. Drawing is uPlot's.
+// A chart in a panel: frame, axes, scales, saving as an image. Drawing is uPlot's.
 
 import uPlot from "uplot";
 import { download, h, panel, toggleButton } from "./dom.js";

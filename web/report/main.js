@@ -2,7 +2,7 @@
 
 import { errorChart, innovationChart, innovationHistogram, stepChart, timeChart } from "./charts.js";
 import { choice, h, section } from "./dom.js";
-import { FilmPanel } from "./film.js";
+import { ImageStripPanel } from "./image_strip.js";
 import { MapPanel } from "./map.js";
 import { comparison, pageHeader, runSummary, tiles } from "./summary.js";
 import { blockTable, metricsTables, notesPanel, reproduce, smoothedPanel } from "./tables.js";
@@ -89,7 +89,7 @@ class Report {
     };
     const { innovations, steps } = run;
     return [
-      section("Camera", "stack", run.film?.length ? keep(new FilmPanel(run.film, this.timeline)) : null),
+      section("Camera", "stack", run.image_strip?.length ? keep(new ImageStripPanel(run.image_strip, this.timeline)) : null),
       section("Errors over time", "grid", keep(positionErrorChart(this.timeline, this.data, index)),
         errorCharts(this.timeline, run, color).map(keep)),
       section("Innovations", "grid wide-left",

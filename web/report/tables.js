@@ -83,7 +83,7 @@ export function smoothedPanel(smoothed, truth) {
   const columns = [["live from smoothed", smoothed.live], ["live from truth", smoothed.truth ? truth : null],
     ["smoothed from truth", smoothed.truth]].filter(([, values]) => values);
   const rows = DISTANCES.filter(([, key]) => columns.some(([, values]) => format.isNumber(values[key])));
-  return panel("By the whole log", { note: `${format.count(smoothed.poses)} poses and ${format.count(smoothed.sightings)} sightings`
+  return panel("By the whole log", { note: `${format.count(smoothed.poses)} poses and ${format.count(smoothed.observations)} observations`
       + ` estimated at once in ${format.plain(smoothed.cpu_s, 2)} s${smoothed.converged ? "" : ", not converged"}` },
     h("table", {}, h("thead", {}, h("tr", {}, h("th", {}, "RMS distance"), columns.map(([name]) => h("th", { class: "num" }, name)))),
       h("tbody", {}, rows.map(([name, key, unit]) => h("tr", {}, h("th", { scope: "row" }, `${name} (${unit})`),

@@ -57,7 +57,7 @@ const loss = data.by === "likelihood" ? (v) => -v : (v) => v;
 const unit = data.by === "likelihood" ? "of log-likelihood" : "percent of RMSE";
 document.title = `${title} · Waymark`;
 document.getElementById("tune").append(...[
-  pageHeader({ title, version: data.version, subtitle: `${data.stopped ? "Stopped before the end. " : ""}By ${data.by}: ${format.count(data.keys.length)} keys over ${format.count(data.sightings)} sightings, ${format.count(data.runs)} runs` }),
+  pageHeader({ title, version: data.version, subtitle: `${data.stopped ? "Stopped before the end. " : ""}By ${data.by}: ${format.count(data.keys.length)} keys over ${format.count(data.observations)} observations, ${format.count(data.runs)} runs` }),
   section("Result", "stack", keyTable(data), heldOutTable(data, loss), logTable(data, loss)),
   section(`How flat it is: units ${unit} below the best, along one key while the others stay`, "grid",
     data.keys.filter((key) => key.slice.length > 1).map((key) => profile(key).element)),

@@ -9,9 +9,9 @@ void describe(Schema& schema, BagOptions& o) {
   schema.text("input.observation_topic", o.observation_topic,
               "topic of detected markers; empty: the one with most messages; none: none", Shown::kAlways);
   schema.text("input.image_topic", o.image_topic,
-              "topic of pictures; empty: the one with most messages; none: none", Shown::kAlways);
+              "topic of images; empty: the one with most messages; none: none", Shown::kAlways);
   schema.text("input.camera_info_topic", o.camera_info_topic,
-              "topic that describes the camera; empty: the one beside the pictures; none: none");
+              "topic that describes the camera; empty: the one beside the images; none: none");
   schema.text("input.truth_topic", o.truth_topic, "topic of the robot's true poses; empty or none: none",
               Shown::kAlways);
   schema.text("input.left_joint", o.left_joint,

@@ -20,7 +20,7 @@ using bag::Message;
 using bag::PlannedTopic;
 
 constexpr Duration kWindow = std::chrono::seconds(5);
-constexpr std::size_t kMostHeld_bytes = 64'000'000;
+constexpr std::size_t kMaxHeld_bytes = 64'000'000;
 constexpr Duration kJump = std::chrono::seconds(10);
 
 std::size_t bytes_held(const Event& event) {
@@ -87,7 +87,7 @@ class BagSource final : public Source {
   /// Can nothing any more come before the first event that waits?
   [[nodiscard]] bool is_settled() const {
     if (waiting_.empty()) return false;
-    return newest_ - waiting_.begin()->first.first > kWindow || held_bytes_ > kMostHeld_bytes;
+    return newest_ - waiting_.begin()->first.first > kWindow || held_bytes_ > kMaxHeld_bytes;
   }
 
   void take(const Message& message) {

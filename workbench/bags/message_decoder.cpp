@@ -49,7 +49,7 @@ double number_at(const char* bytes, Primitive primitive, std::endian order) {
 bool is_byte_array(const Field& field) { return field.shape != Shape::kOne && size_of(field.primitive) == 1; }
 
 /// CDR lets a message end in bytes that only fill up.
-constexpr std::size_t kMostPadding = 7;
+constexpr std::size_t kMaxPadding = 7;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ class MessageDecoder::Walk {
     if (!message(decoder_.nodes_, false))
       return Error{fmt::format("its {} bytes end, or make no sense, at byte {}, field {}", bytes_.size(), at_,
                                field_)};
-    if (bytes_.size() - at_ > (is_cdr_ ? kMostPadding : 0))
+    if (bytes_.size() - at_ > (is_cdr_ ? kMaxPadding : 0))
       return Error{fmt::format("it has {} bytes, and by its definition only {}", bytes_.size(), at_)};
     return {};
   }

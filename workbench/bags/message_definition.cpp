@@ -15,7 +15,7 @@ namespace waymark::bag {
 namespace {
 
 /// More than this is no message but an attack.
-constexpr int kMostFields = 20000;
+constexpr int kMaxFields = 20000;
 constexpr std::size_t kDeepest = 32;
 
 struct PrimitiveName {
@@ -47,7 +47,7 @@ std::string_view take_line(std::string_view& text) {
   return line.substr(0, line.find('#'));
 }
 
-/// The texts of a stored definition by type; that of the topic itself comes first and without a name.
+/// The texts of a stored definition by type; that of the topic itself comes first and of unknown identity.
 std::map<std::string, std::string, std::less<>> split(std::string_view text, std::string_view root) {
   constexpr std::string_view kRule = "========";
   constexpr std::string_view kName = "MSG:";
@@ -139,7 +139,7 @@ class Parser {
 
   Result<Field> read_field(std::string_view type, std::string_view name, std::string_view package) {
     const auto word = read_type(type);
-    if (!word || name.empty() || ++count_ > kMostFields)
+    if (!word || name.empty() || ++count_ > kMaxFields)
       return error(fmt::format("cannot be read at {}", in_quotes(fmt::format("{} {}", type, name))));
     Field field{.name = std::string(name), .shape = word->shape, .length = word->length, .fields = {}};
     if (const auto primitive = primitive_of(word->type)) {

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 // A row takes this much of a file at least: its place in the page, the sizes of row and head, a type per
 // column.
-constexpr std::uint64_t kLeastRowBytes = 8;
+constexpr std::uint64_t kMinRowBytes = 8;
 // Of our queries for each row, sorting included, there are no more than eight times as many.
 constexpr std::int64_t kStepsPerByte = 8;
-constexpr std::int64_t kLeastSteps = 1'000'000;
-constexpr std::uint64_t kLeastBytes = 100'000;
+constexpr std::int64_t kMinSteps = 1'000'000;
+constexpr std::uint64_t kMinBytes = 100'000;
 
 /// 0: there is none.
 std::uint64_t size_of(fs::path path, const char* suffix) {
@@ -92,7 +92,7 @@ bool SqliteRows::end(std::string problem) {
 }
 
 std::uint64_t SqliteRows::row_bytes() const {
-  std::uint64_t sum = kLeastRowBytes;
+  std::uint64_t sum = kMinRowBytes;
   for (int column = 0; column < sqlite3_data_count(statement_.get()); ++column)
     if (const int type = sqlite3_column_type(statement_.get(), column);
         type == SQLITE_BLOB || type == SQLITE_TEXT)
@@ -119,7 +119,7 @@ SqliteFile::SqliteFile(sqlite3* database, std::uint64_t size)
   refuse_foreign_code(database);
   // A value can be no longer than the file.
   sqlite3_limit(database, SQLITE_LIMIT_LENGTH,
-                static_cast<int>(std::min<std::uint64_t>(kLargestPiece, std::max(size, kLeastBytes))));
+                static_cast<int>(std::min<std::uint64_t>(kLargestPiece, std::max(size, kMinBytes))));
   sqlite3_progress_handler(database, 1000, count_down, budget_.get());
 }
 
@@ -158,7 +158,7 @@ std::optional<std::string> SqliteFile::table_problem(std::string_view table) con
 SqliteRows SqliteFile::query(const std::string& sql) const {
   const auto size = static_cast<std::int64_t>(size_);
   // Texts of UTF-16 take up to one and a half times their place when they are read.
-  *budget_ = {(kLeastSteps + kStepsPerByte * size) / 1000, 2 * (kLeastBytes + size_)};
+  *budget_ = {(kMinSteps + kStepsPerByte * size) / 1000, 2 * (kMinBytes + size_)};
   return {database_.get(), sql, budget_.get()};
 }
 

@@ -302,7 +302,7 @@ class Planner {
     return {};
   }
 
-  /// Pictures are better than corners that were found in them: what stands around a marker tells how good
+  /// Images are better than corners that were found in them: what stands around a marker tells how good
   /// they are.
   Result<void> choose_outlines() {
     if (has_images() && !names_outlines()) return {};

@@ -48,13 +48,13 @@ struct BoardRequest {
   std::string dictionary;
 };
 
-/// A chessboard may come without its corners, which a picture of it tells.
+/// A chessboard may come without its corners, which an image of it tells.
 [[nodiscard]] Result<Board> make_board(const BoardRequest& request);
 
 /// "chessboard with 9x6 inner corners".
 [[nodiscard]] std::string describe(const Board& board);
 
-/// A corner that was found in a picture.
+/// A corner that was found in an image.
 struct BoardCorner {
   int index = 0;
   Eigen::Vector2d pixel;  ///< the centre of the first pixel is at (0, 0)

@@ -17,7 +17,7 @@ int opencv_number(const markers::MarkerDictionary& dictionary) {
 }  // namespace
 
 Result<std::unique_ptr<BoardFinder>> make_board_finder(const Board& board) {
-  const auto opencv = load_opencv("finding a board in pictures");
+  const auto opencv = load_opencv("finding a board in images");
   if (!opencv) return opencv.error();
   return board.kind == BoardKind::kCharuco
              ? (*opencv)->make_charuco_finder(board, opencv_number(board.dictionary))

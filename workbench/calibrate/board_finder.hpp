@@ -26,7 +26,7 @@ class BoardFinder {
 /// A finder, or that OpenCV's module is missing.
 [[nodiscard]] Result<std::unique_ptr<BoardFinder>> make_board_finder(const Board& board);
 
-/// The inner corners of the largest chessboard in a picture, the longer side first; nothing where there is
+/// The inner corners of the largest chessboard in an image, the longer side first; nothing where there is
 /// none, or without OpenCV's module. Some 20 ms.
 [[nodiscard]] std::optional<GridSize> guess_chessboard(const ImageView& image);
 

@@ -21,21 +21,22 @@ constexpr double kBlurred = 2.0;  // times the median edge
 constexpr double kOutlier = 2.5;  // times the median error
 constexpr double kSignificant = 3.0;
 
-std::vector<std::size_t> used(const std::vector<View>& views) {
+std::vector<std::size_t> used(const std::vector<BoardView>& views) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].fate == Fate::kUsed) places.push_back(i);
   return places;
 }
 
-std::vector<BoardCorners> corners_of(const std::vector<View>& views, const std::vector<std::size_t>& places) {
+std::vector<BoardCorners> corners_of(const std::vector<BoardView>& views,
+                                     const std::vector<std::size_t>& places) {
   std::vector<BoardCorners> corners;
   for (const std::size_t place : places) corners.push_back(views[place].corners);
   return corners;
 }
 
-/// The size of most pictures that show the board; the others are dropped.
-ImageSize settle_size(std::vector<View>& views) {
+/// The size of most images that show the board; the others are dropped.
+ImageSize settle_size(std::vector<BoardView>& views) {
   std::map<std::pair<int, int>, int> votes;
   for (const std::size_t i : used(views)) ++votes[{views[i].size.width_px, views[i].size.height_px}];
   const auto best = std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; });
@@ -49,7 +50,7 @@ ImageSize settle_size(std::vector<View>& views) {
   return size;
 }
 
-void drop_blurred(std::vector<View>& views) {
+void drop_blurred(std::vector<BoardView>& views) {
   std::vector<double> edges;
   for (const std::size_t i : used(views)) edges.push_back(views[i].edge_px);
   const double usual_px = *eval::median(std::move(edges));
@@ -61,32 +62,32 @@ void drop_blurred(std::vector<View>& views) {
     }
 }
 
-Error too_few(const Board& board, const std::vector<View>& views) {
+Error too_few(const Board& board, const std::vector<BoardView>& views) {
   std::map<std::string, int> counts;
-  for (const View& view : views)
+  for (const BoardView& view : views)
     if (view.fate != Fate::kUsed) ++counts[name_of(view.fate)];
   std::string others;
   for (const auto& [fate, count] : counts) others += fmt::format(", {} {}", count, fate);
   const auto seen = used(views).size();
   return {
-      fmt::format("{} of {} pictures show a {}{}; {} are needed at least, and 15 from different sides are "
+      fmt::format("{} of {} images show a {}{}; {} are needed at least, and 15 from different sides are "
                   "good",
-                  seen, views.size(), describe(board), others, kLeastViews)};
+                  seen, views.size(), describe(board), others, kMinViews)};
 }
 
 /// Fits, and drops the view that fits worst as long as it stands out.
-Result<CameraFit> fit_without_outliers(const Board& board, std::vector<View>& views, ImageSize size) {
+Result<CameraFit> fit_without_outliers(const Board& board, std::vector<BoardView>& views, ImageSize size) {
   while (true) {
     const auto places = used(views);
-    if (places.size() < kLeastViews) return too_few(board, views);
+    if (places.size() < kMinViews) return too_few(board, views);
     auto fit = fit_camera(board, corners_of(views, places), size, Lens::kFourTerms);
     if (!fit) return fit;
     std::vector<double> errors;
     for (const FittedView& view : fit->views) errors.push_back(view.rms_px());
     const auto worst = std::ranges::max_element(errors);
     const double usual_px = *eval::median(errors);
-    if (*worst <= kOutlier * usual_px || places.size() <= 2 * kLeastViews) return fit;
-    View& view = views[places[static_cast<std::size_t>(worst - errors.begin())]];
+    if (*worst <= kOutlier * usual_px || places.size() <= 2 * kMinViews) return fit;
+    BoardView& view = views[places[static_cast<std::size_t>(worst - errors.begin())]];
     view.fate = Fate::kOutlier;
     view.why = fmt::format(
         "error {:.2f} px, {:.2f} px is usual here: the board was bent or moved, or its corners "
@@ -95,8 +96,8 @@ Result<CameraFit> fit_without_outliers(const Board& board, std::vector<View>& vi
   }
 }
 
-Result<HeldOut> hold_out(const Board& board, std::vector<View>& views, ImageSize size, Lens lens) {
-  HeldOut result;
+Result<HeldOutErrors> hold_out(const Board& board, std::vector<BoardView>& views, ImageSize size, Lens lens) {
+  HeldOutErrors result;
   std::vector<Intrinsics> cameras;
   std::vector<FittedView> tests;
   for (const Fold& fold : folds_of(used(views))) {
@@ -104,7 +105,7 @@ Result<HeldOut> hold_out(const Board& board, std::vector<View>& views, ImageSize
     if (!fit) return fit.error();
     cameras.push_back(intrinsics_of(fit->camera));
     for (const std::size_t place : fold.left_out) {
-      View& view = views[place];
+      BoardView& view = views[place];
       const auto pose = fit_pose(board, view.corners, fit->camera);
       if (!pose) continue;
       tests.push_back(*pose);
@@ -142,7 +143,7 @@ void settle_lens(const Board& board, ImageSize size, CameraCalibration& result) 
 
 void keep_fits(CameraCalibration& result) {
   std::size_t next = 0;
-  for (View& view : result.views) {
+  for (BoardView& view : result.views) {
     if (view.fate == Fate::kUsed) view.fit = result.fit.views[next++];
     if (view.fate == Fate::kOutlier || view.fate == Fate::kBlurred)
       view.fit = fit_pose(result.board, view.corners, result.fit.camera).value_or(FittedView{});
@@ -160,14 +161,14 @@ double distance_m(const FittedView& view, const Board& board) {
   return (view.T_camera_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0)).norm();
 }
 
-Result<CameraCalibration> calibrate_camera(const Board& board, std::vector<View> views) {
-  if (used(views).size() < kLeastViews) return too_few(board, views);
+Result<CameraCalibration> calibrate_camera(const Board& board, std::vector<BoardView> views) {
+  if (used(views).size() < kMinViews) return too_few(board, views);
   const ImageSize size = settle_size(views);
   drop_blurred(views);
   auto fit = fit_without_outliers(board, views, size);
   if (!fit) return fit.error();
   CameraCalibration result{.board = board, .views = std::move(views), .fit = *std::move(fit)};
-  if (result.used() > kLeastViews) {
+  if (result.used() > kMinViews) {
     auto held_out = hold_out(board, result.views, size, Lens::kFourTerms);
     if (held_out) result.held_out = *held_out;
     if (held_out) settle_lens(board, size, result);

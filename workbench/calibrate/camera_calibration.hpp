@@ -18,7 +18,7 @@ struct Weakness {
 };
 
 /// What is known of a camera that was fitted without some of the views, in turn.
-struct HeldOut {
+struct HeldOutErrors {
   int folds = 0;
   double rms_px = 0.0;  ///< of the views left out, their poses fitted, the camera not
   /// Between the cameras of the folds: delete-a-group jackknife (Shao and Tu, "The Jackknife and Bootstrap",
@@ -30,13 +30,13 @@ struct HeldOut {
 
 struct CameraCalibration {
   Board board;
-  std::vector<View> views;  ///< all of them, in the order that they came
+  std::vector<BoardView> views;  ///< all of them, in the order that they came
   Lens lens = Lens::kFourTerms;
   double k3_in_sigmas = 0.0;  ///< where it was tried
   CameraFit fit;              ///< its views are those used, in their order
-  HeldOut held_out;
+  HeldOutErrors held_out;
   std::vector<ProjectionSigma> projection;
-  double covered = 0.0;  ///< part of the cells of a grid over the picture with corners in them
+  double covered = 0.0;                   ///< part of the cells of a grid over the image with corners in them
   std::optional<TwoCameras> two_cameras;  ///< where the views are not all of one
   std::vector<Weakness> weaknesses;
 
@@ -46,9 +46,9 @@ struct CameraCalibration {
 
 /// Drops what is of another size, blurred or an outlier, fits the camera with the terms that the views
 /// support, tests it on views left out, and judges the set. An error: too few views are left.
-[[nodiscard]] Result<CameraCalibration> calibrate_camera(const Board& board, std::vector<View> views);
+[[nodiscard]] Result<CameraCalibration> calibrate_camera(const Board& board, std::vector<BoardView> views);
 
-/// Angle between the board and the picture plane, degrees.
+/// Angle between the board and the image plane, degrees.
 [[nodiscard]] double tilt_deg(const FittedView& view);
 /// From the camera to the middle of the corners, in units of the board's lengths.
 [[nodiscard]] double distance_m(const FittedView& view, const Board& board);

@@ -101,7 +101,7 @@ Matrix3d pinhole(const CameraOptions& camera) {
 }
 
 /// The focal length with which the sides of the board are square in all views, the principal point in the
-/// middle of the picture (Zhang, section 3.1); as long as the picture is wide where they do not tell.
+/// middle of the image (Zhang, section 3.1); as long as the image is wide where they do not tell.
 double first_focal_px(const std::vector<Matrix3d>& homographies, const Vector2d& centre, double width_px) {
   Matrix3d to_centre = Matrix3d::Identity();
   to_centre.topRightCorner<2, 1>() = -centre;
@@ -305,7 +305,7 @@ Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> v
                              Lens lens) {
   if (views.size() < kFewestViews)
     return Error{fmt::format("{} views of the board are too few: {} are needed at least, and 15 are good",
-                             views.size(), kLeastViews)};
+                             views.size(), kMinViews)};
   auto homographies = homographies_of(board, views);
   if (!homographies) return homographies.error();
   const CameraOptions camera = first_camera(*homographies, size);

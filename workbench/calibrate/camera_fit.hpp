@@ -51,8 +51,8 @@ struct CameraFit {
 };
 
 /// A view has at least so many corners, not all on a line; so many views make a camera that is of use.
-inline constexpr int kLeastCorners = 6;
-inline constexpr int kLeastViews = 3;
+inline constexpr int kMinCorners = 6;
+inline constexpr int kMinViews = 3;
 /// Fewer leave intrinsics open: a homography has two numbers more than a pose (Zhang, section 3.1).
 inline constexpr int kFewestViews = 2;
 

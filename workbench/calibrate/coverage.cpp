@@ -7,9 +7,9 @@ namespace waymark::calibrate {
 namespace {
 
 /// Which cells have corners in them, row by row.
-std::vector<bool> filled_cells(const std::vector<View>& views, ImageSize size, int columns, int rows) {
+std::vector<bool> filled_cells(const std::vector<BoardView>& views, ImageSize size, int columns, int rows) {
   std::vector<bool> filled(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
-  for (const View& view : views) {
+  for (const BoardView& view : views) {
     if (view.fate != Fate::kUsed) continue;
     for (const auto& [index, pixel] : view.corners) {
       const int column = std::clamp(static_cast<int>(pixel.x() * columns / size.width_px), 0, columns - 1);
@@ -23,13 +23,13 @@ std::vector<bool> filled_cells(const std::vector<View>& views, ImageSize size, i
 
 }  // namespace
 
-double covered_part(const std::vector<View>& views, ImageSize size) {
+double covered_part(const std::vector<BoardView>& views, ImageSize size) {
   constexpr int kColumns = 8, kRows = 6;
   const auto filled = filled_cells(views, size, kColumns, kRows);
   return static_cast<double>(std::ranges::count(filled, true)) / (kColumns * kRows);
 }
 
-std::vector<std::string> empty_ninths(const std::vector<View>& views, ImageSize size) {
+std::vector<std::string> empty_ninths(const std::vector<BoardView>& views, ImageSize size) {
   static constexpr std::array kNames{"upper left", "top",        "upper right", "left",       "middle",
                                      "right",      "lower left", "bottom",      "lower right"};
   const auto filled = filled_cells(views, size, 3, 3);

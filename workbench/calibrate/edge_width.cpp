@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 
 constexpr double kStep_px = 0.25;
 constexpr double kReach = 0.35;  // of a square: how far across its edge one looks
-constexpr int kLeastContrast = 16;
+constexpr int kMinContrast = 16;
 
 std::optional<double> grey(const ImageView& image, const Vector2d& p) {
   const int u = static_cast<int>(std::floor(p.x())), v = static_cast<int>(std::floor(p.y()));
@@ -47,7 +47,7 @@ std::optional<double> width_of_edge(const ImageView& image, const Vector2d& a, c
   if (profile.size() < 5) return std::nullopt;
   if (profile.front() > profile.back()) std::ranges::reverse(profile);
   const double dark = profile.front(), rise = profile.back() - dark;
-  if (rise < kLeastContrast) return std::nullopt;
+  if (rise < kMinContrast) return std::nullopt;
   return kStep_px * (crossing(profile, dark + 0.9 * rise) - crossing(profile, dark + 0.1 * rise));
 }
 

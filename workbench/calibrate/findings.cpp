@@ -15,8 +15,8 @@ constexpr std::array kScaleKeys{"motion.speed_scale", "motion.turn_scale"};
 
 /// Left and right radius, track, and right by left radius: values, standard deviations, and whether the log
 /// tells them.
-std::vector<Finding> wheel_findings(const smooth::Smoothed& smoothed, const Config& during,
-                                    const Config& before) {
+std::vector<CalibrationFinding> wheel_findings(const smooth::Smoothed& smoothed, const Config& during,
+                                               const Config& before) {
   const Calibration& c = smoothed.calibration.mean;
   const WheelGeometry used = with_scales(during.odometry);
   const WheelGeometry found = corrected(used, c);
@@ -28,11 +28,12 @@ std::vector<Finding> wheel_findings(const smooth::Smoothed& smoothed, const Conf
       (J * smoothed.calibration_covariance * J.transpose()).diagonal().cwiseSqrt();
   const Eigen::Vector4d relative_before =
       (J * smoothed.calibration.prior_sigmas.cwiseAbs2().asDiagonal() * J.transpose()).diagonal().cwiseSqrt();
-  std::vector<Finding> list;
+  std::vector<CalibrationFinding> list;
   const auto add = [&](const char* key, double value, double value_before, bool is_key) {
     const auto i = static_cast<Eigen::Index>(list.size());
-    list.push_back(
-        {{key, value, value * relative[i], relative[i] > kTold * relative_before[i]}, value_before, is_key});
+    list.push_back({{key, value, value * relative[i], relative[i] > kObservableRatio * relative_before[i]},
+                    value_before,
+                    is_key});
   };
   add("wheels.left_radius_m", found.left_radius_m, assumed.left_radius_m, true);
   add("wheels.right_radius_m", found.right_radius_m, assumed.right_radius_m, true);
@@ -49,9 +50,9 @@ double value_of(const Config& config, const std::string& key) {
   return std::strtod(describe(copy).value(key).c_str(), nullptr);
 }
 
-std::vector<Finding> findings(const smooth::Smoothed& smoothed, const Config& during, const Config& before,
-                              OdometryKind odometry) {
-  std::vector<Finding> list;
+std::vector<CalibrationFinding> findings(const smooth::Smoothed& smoothed, const Config& during,
+                                         const Config& before, OdometryKind odometry) {
+  std::vector<CalibrationFinding> list;
   CalibrationEstimate rest = smoothed.calibration;
   if (odometry == OdometryKind::kWheels) {
     list = wheel_findings(smoothed, during, before);
@@ -62,9 +63,9 @@ std::vector<Finding> findings(const smooth::Smoothed& smoothed, const Config& du
   return list;
 }
 
-std::vector<smooth::CalibratedKey> keys_of(const std::vector<Finding>& findings) {
+std::vector<smooth::CalibratedKey> keys_of(const std::vector<CalibrationFinding>& findings) {
   std::vector<smooth::CalibratedKey> keys;
-  for (const Finding& finding : findings)
+  for (const CalibrationFinding& finding : findings)
     if (finding.is_key) keys.push_back(finding.found);
   if (!keys.empty() && keys.front().key.starts_with("wheels."))
     for (const char* key : kScaleKeys) keys.push_back({key, 1.0});

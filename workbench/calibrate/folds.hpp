@@ -13,12 +13,12 @@ struct Fold {
 };
 
 /// More folds than these cost time and tell little.
-inline constexpr std::size_t kMostFolds = 10;
+inline constexpr std::size_t kMaxFolds = 10;
 
-/// Each place is left out once, in as many folds as there are places, or in kMostFolds; neighbours together:
+/// Each place is left out once, in as many folds as there are places, or in kMaxFolds; neighbours together:
 /// what follows each other is most alike.
 [[nodiscard]] inline std::vector<Fold> folds_of(const std::vector<std::size_t>& places) {
-  const std::size_t count = std::min(places.size(), kMostFolds);
+  const std::size_t count = std::min(places.size(), kMaxFolds);
   std::vector<Fold> folds(count);
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t fold = 0; fold < count; ++fold) {

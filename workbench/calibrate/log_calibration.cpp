@@ -10,7 +10,7 @@
 namespace waymark::calibrate {
 namespace {
 
-constexpr int kMostPasses = 10;
+constexpr int kMaxPasses = 10;
 /// A pass that moves nothing by more of its standard deviation is the last.
 constexpr double kSettled = 0.05;
 
@@ -18,8 +18,8 @@ constexpr double kSettled = 0.05;
 std::vector<std::string> wide_priors(Subject subject) {
   std::vector<std::string> keys{"motion.speed_scale_sigma=0.3", "motion.turn_scale_sigma=0.3",
                                 "motion.turn_bias_sigma_degps=2", "smooth.turn_per_m_sigma_deg=20",
-                                // Stamps jitter, wheels give: on short legs that outweighs the motion.
-                                "smooth.least_leg_m=0.1", "smooth.least_leg_deg=10"};
+                                // Stamps jitter, wheels give: on short intervals that outweighs the motion.
+                                "smooth.keyframe_distance_m=0.1", "smooth.keyframe_turn_deg=10"};
   if (subject == Subject::kMount)
     keys.insert(keys.end(), {"smooth.mount_sigma_m=0.5", "smooth.mount_yaw_sigma_deg=20"});
   return keys;
@@ -45,8 +45,8 @@ Result<void> check(const std::string& input, const Recording& recording) {
   if (!recording.odometry && recording.error) return *recording.error;
   if (!recording.odometry)
     return Error{input + ": no odometry: wheels, velocities, steering or odometry poses are needed"};
-  if (recording.sightings.empty() && recording.error) return *recording.error;
-  if (recording.sightings.empty())
+  if (recording.observations.empty() && recording.error) return *recording.error;
+  if (recording.observations.empty())
     return Error{input + ": no landmark was seen, and only landmarks tell how the robot really moved"};
   return {};
 }
@@ -73,7 +73,7 @@ class Passes {
     auto smoothed = smooth::smooth(pass.recording, pass.config,
                                    {deviation(pass.config, *before_, pass.odometry), steps_});
     if (!smoothed) return smoothed.error();
-    if (smoothed->sightings == 0)
+    if (smoothed->observations == 0)
       return Error{input_ +
                    ": the filter mapped no landmark that it saw from two places; filter=fastslam can "
                    "start from ranges or bearings alone"};
@@ -82,11 +82,11 @@ class Passes {
     return pass;
   }
 
-  [[nodiscard]] std::vector<Finding> found(const Pass& pass) const {
+  [[nodiscard]] std::vector<CalibrationFinding> found(const Pass& pass) const {
     return findings(pass.smoothed, pass.config, *before_, pass.odometry);
   }
 
-  void apply(const std::vector<Finding>& found) {
+  void apply(const std::vector<CalibrationFinding>& found) {
     for (const smooth::CalibratedKey& key : keys_of(found))
       user_.assignments.push_back(fmt::format("{}={}", key.key, key.value));
   }
@@ -124,14 +124,14 @@ std::vector<std::string> notes_on(const LogCalibration& result, const Pass& pass
   std::vector<std::string> notes;
   if (pass.recording.error)
     notes.push_back("the log was read only in part: " + pass.recording.error->message);
-  std::vector<std::string> untold;
-  for (const Finding& finding : result.findings)
-    if (finding.found.is_untold) untold.push_back(finding.found.key);
-  if (!untold.empty())
+  std::vector<std::string> unobservable;
+  for (const CalibrationFinding& finding : result.findings)
+    if (finding.found.is_unobservable) unobservable.push_back(finding.found.key);
+  if (!unobservable.empty())
     notes.push_back(fmt::format(
         "not told by this log, and left as assumed: {}; the robot drove {:.1f} m and turned by {:.0f} "
         "degrees in all",
-        fmt::join(untold, ", "), driven_m(result.smoothed), to_degrees(turned_rad(result.smoothed))));
+        fmt::join(unobservable, ", "), driven_m(result.smoothed), to_degrees(turned_rad(result.smoothed))));
   if (pass.smoothed.calibration.sigmas[kSpeedScale] == 0.0)
     notes.emplace_back(
         "how far the robot drives per measured metre was not estimated: without ranges of known scale "
@@ -176,7 +176,7 @@ Result<LogCalibration> calibrate_log(const std::string& input, const UserSetting
     if (result.passes++ == 0) result.dead_reckoning_before = pass->recording.dead_reckoning;
     result.findings = passes.found(*pass);
     result.settled = has_settled(pass->smoothed.calibration);
-    if (!result.settled && result.passes < kMostPasses) {
+    if (!result.settled && result.passes < kMaxPasses) {
       passes.apply(result.findings);
       continue;
     }

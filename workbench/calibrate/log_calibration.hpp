@@ -30,7 +30,7 @@ struct LogCalibration {
   std::string input;
   LogInfo log;
   Config config;  ///< with what was found
-  std::vector<Finding> findings;
+  std::vector<CalibrationFinding> findings;
   std::vector<std::string> notes;
   int passes = 0;        ///< runs over the log
   bool settled = false;  ///< the last one found what it was run with

@@ -14,12 +14,12 @@
 namespace waymark::calibrate {
 namespace {
 
-constexpr int kMostRuns = 6;
-constexpr int kMostSmoothings = 15;
+constexpr int kMaxRuns = 6;
+constexpr int kMaxSmoothings = 15;
 /// What moves by less of its standard deviation has settled.
 constexpr double kSettledPart = 0.2;
 constexpr const char* kDelayKey = "sensor.delay_s";
-constexpr const char* kShakingKey = "camera.vibration_deg";
+constexpr const char* kShakingKey = "camera.jitter_deg";
 
 /// One run over the log.
 struct Run {
@@ -41,8 +41,8 @@ class Runs {
     const auto defaults = {
         // What is noise cannot be told from what is left over with weights that depend on it; outliers are
         // left out instead.
-        "smooth.robust_dof=1000", "smooth.delay_sigma_s=0.1", "smooth.least_leg_m=0.1",
-        "smooth.least_leg_deg=10"};
+        "smooth.robust_dof=1000", "smooth.delay_sigma_s=0.1", "smooth.keyframe_distance_m=0.1",
+        "smooth.keyframe_turn_deg=10"};
     user_.defaults.insert(user_.defaults.end(), defaults.begin(), defaults.end());
   }
 
@@ -56,8 +56,8 @@ class Runs {
   }
 
   /// The next run is made with what was found.
-  void keep(const std::vector<Finding>& found, bool may_shift) {
-    for (const Finding& each : found)
+  void keep(const std::vector<CalibrationFinding>& found, bool may_shift) {
+    for (const CalibrationFinding& each : found)
       if (each.found.key != kDelayKey || may_shift)
         user_.assignments.push_back(fmt::format("{}={}", each.found.key, each.found.value));
   }
@@ -70,7 +70,7 @@ class Runs {
   std::function<bool(double)> keep_going_;
 };
 
-Finding finding(const char* key, const Value& found, const Config& before) {
+CalibrationFinding finding(const char* key, const Value& found, const Config& before) {
   return {{key, found.value, found.sigma}, value_of(before, key)};
 }
 
@@ -91,29 +91,29 @@ Value shaking_deg(const SensorNoise& noise, double stated_deg) {
           to_degrees(std::min(std::sqrt(sigma_rad2), 0.5 * sigma_rad2 / shaking_rad))};
 }
 
-/// A camera that shakes moves all of a picture, as a robot that turns does: little of it is left over. It is
+/// A camera that shakes moves all of an image, as a robot that turns does: little of it is left over. It is
 /// told where it is more than was assumed, and else stays.
-Finding shaking(const SensorNoise& noise, double stated_deg, const Config& before) {
+CalibrationFinding shaking(const SensorNoise& noise, double stated_deg, const Config& before) {
   const Value found = shaking_deg(noise, stated_deg);
-  Finding shaking = finding(kShakingKey, found, before);
+  CalibrationFinding shaking = finding(kShakingKey, found, before);
   if (found.value > shaking.before) return shaking;
   shaking.found.value = shaking.before;
-  shaking.found.is_untold = true;
+  shaking.found.is_unobservable = true;
   return shaking;
 }
 
-std::vector<Finding> marker_noise(const SensorNoise& noise, const Run& run, const Config& before) {
+std::vector<CalibrationFinding> marker_noise(const SensorNoise& noise, const Run& run, const Config& before) {
   const markers::MarkerOptions& stated = run.config.markers;
-  const Finding pixels =
+  const CalibrationFinding pixels =
       has_outlines(run)
           ? finding("markers.corner_sigma_px", scaled(stated.corner_sigma_px, noise.range_variance), before)
           : finding("markers.side_sigma_px", scaled(stated.side_sigma_px, noise.range_variance), before);
-  return {pixels, shaking(noise, stated.mount_sigma_deg, before)};
+  return {pixels, shaking(noise, stated.jitter_deg, before)};
 }
 
-std::vector<Finding> sensor_noise(const SensorNoise& noise, const Config& before) {
+std::vector<CalibrationFinding> sensor_noise(const SensorNoise& noise, const Config& before) {
   constexpr double kLeast_m = 1e-6;
-  std::vector<Finding> found;
+  std::vector<CalibrationFinding> found;
   if (noise.range) {
     const auto& [sigma_m, sigma_ratio] = *noise.range;
     found.push_back(
@@ -126,8 +126,8 @@ std::vector<Finding> sensor_noise(const SensorNoise& noise, const Config& before
   return found;
 }
 
-std::vector<Finding> findings_of(const SensorNoise& noise, const Run& run, const smooth::Smoothed& smoothed,
-                                 const Config& before) {
+std::vector<CalibrationFinding> findings_of(const SensorNoise& noise, const Run& run,
+                                            const smooth::Smoothed& smoothed, const Config& before) {
   auto found = is_camera(run.config) ? marker_noise(noise, run, before) : sensor_noise(noise, before);
   CalibrationEstimate delay = smoothed.calibration;
   delay.sigmas.head<kDelay>().setZero();  // the rest is `calibrate odometry` and `calibrate mount`
@@ -136,38 +136,38 @@ std::vector<Finding> findings_of(const SensorNoise& noise, const Run& run, const
   return found;
 }
 
-bool is_same(const std::vector<Finding>& a, const std::vector<Finding>& b) {
-  return std::ranges::equal(a, b, [](const Finding& x, const Finding& y) {
+bool is_same(const std::vector<CalibrationFinding>& a, const std::vector<CalibrationFinding>& b) {
+  return std::ranges::equal(a, b, [](const CalibrationFinding& x, const CalibrationFinding& y) {
     return x.found.key == y.found.key &&
            std::abs(x.found.value - y.found.value) <= kSettledPart * std::max(x.found.sigma, y.found.sigma);
   });
 }
 
 /// Puts noise in force; another delay needs another run.
-Config with_noise(Config config, const std::vector<Finding>& found) {
+Config with_noise(Config config, const std::vector<CalibrationFinding>& found) {
   Schema schema = describe(config);
-  for (const Finding& each : found)
+  for (const CalibrationFinding& each : found)
     if (each.found.key != kDelayKey)
       static_cast<void>(schema.set(each.found.key, fmt::format("{}", each.found.value), "found"));
   return config;
 }
 
-/// The covariance that a run with other noise would have given a sighting.
+/// The covariance that a run with other noise would have given an observation.
 Eigen::Matrix2d restated(const Observation& seen, const Run& run, const Config& to) {
   if (!is_camera(to)) return noise_covariance(to.sensor, seen.value);
   const auto& [old_options, new_options] = std::pair(run.config.markers, to.markers);
   const double larger = has_outlines(run) ? new_options.corner_sigma_px / old_options.corner_sigma_px
                                           : new_options.side_sigma_px / old_options.side_sigma_px;
   Eigen::Matrix2d R = *seen.covariance;
-  R(1, 1) -= std::pow(to_radians(old_options.mount_sigma_deg), 2);
+  R(1, 1) -= std::pow(to_radians(old_options.jitter_deg), 2);
   R *= larger * larger;
-  R(1, 1) += std::pow(to_radians(new_options.mount_sigma_deg), 2);
+  R(1, 1) += std::pow(to_radians(new_options.jitter_deg), 2);
   return R;
 }
 
 void restate(Run& run, const Config& to) {
-  for (Recording::Sighting& sighting : run.recording.sightings)
-    sighting.observation.covariance = restated(sighting.observation, run, to);
+  for (Recording::ObservationRecord& landmark_observation : run.recording.observations)
+    landmark_observation.observation.covariance = restated(landmark_observation.observation, run, to);
   run.config = to;
 }
 
@@ -178,7 +178,7 @@ class Settling {
 
   /// Runs until what comes out is what went in.
   Result<MovingStudy> settle() {
-    while (!study_.settled && study_.runs < kMostRuns) {
+    while (!study_.settled && study_.runs < kMaxRuns) {
       auto run = runs_.next();
       if (!run) return run.error();
       ++study_.runs;
@@ -186,8 +186,8 @@ class Settling {
       if (auto done = settle(*run); !done) return done.error();
       // Other stamps are other data, which by chance say something else again: after a few, noise is to
       // settle.
-      constexpr int kMostShifts = 3;
-      runs_.keep(study_.findings, study_.runs <= kMostShifts);
+      constexpr int kMaxShifts = 3;
+      runs_.keep(study_.findings, study_.runs <= kMaxShifts);
     }
     return std::move(study_);
   }
@@ -195,7 +195,7 @@ class Settling {
  private:
   /// Smooths one run until its noise stays. Settled is that at once if neither noise nor delay moves.
   Result<void> settle(Run& run) {
-    for (int i = 0; i < kMostSmoothings; ++i) {
+    for (int i = 0; i < kMaxSmoothings; ++i) {
       auto found = look(run);
       if (!found) return found.error();
       const bool is_what_went_in = is_same(*found, std::exchange(study_.findings, *found));
@@ -206,7 +206,7 @@ class Settling {
     return {};
   }
 
-  Result<std::vector<Finding>> look(const Run& run) {
+  Result<std::vector<CalibrationFinding>> look(const Run& run) {
     smooth::Before before;
     for (std::size_t i = 0; i < 3; ++i)
       before.odometry_noise[static_cast<Eigen::Index>(i)] = study_.odometry_noise[i].value;
@@ -216,7 +216,7 @@ class Settling {
     if (smoothed->remainders.empty())
       return Error{runs_.input() + ": no landmark was seen often enough to tell what is noise"};
     study_.noise = noise_of(smoothed->remainders);
-    const auto factors = odometry_variance_of(smoothed->leg_remainders);
+    const auto factors = odometry_variance_of(smoothed->interval_remainders);
     for (std::size_t i = 0; i < 3; ++i)
       study_.odometry_noise[i] = scaled(study_.odometry_noise[i].value, factors[i]);
     return findings_of(study_.noise, run, *smoothed, *before_);
@@ -235,9 +235,10 @@ bool is_far_off(const Value& times) {
          std::abs(times.value - 1.0) > kSure_sigmas * times.sigma;
 }
 
-bool is_untold(const MovingStudy& study, const char* key) {
-  return std::ranges::any_of(
-      study.findings, [key](const Finding& each) { return each.found.key == key && each.found.is_untold; });
+bool is_unobservable(const MovingStudy& study, const char* key) {
+  return std::ranges::any_of(study.findings, [key](const CalibrationFinding& each) {
+    return each.found.key == key && each.found.is_unobservable;
+  });
 }
 
 std::vector<std::string> notes_on(const MovingStudy& study) {
@@ -245,10 +246,10 @@ std::vector<std::string> notes_on(const MovingStudy& study) {
   if (study.noise.outliers > 0)
     notes.push_back(fmt::format("{} errors beyond 4 sigma were left out", study.noise.outliers));
   if (!study.settled) notes.push_back(fmt::format("what was found still moved after {} runs", study.runs));
-  if (is_untold(study, kDelayKey))
-    notes.push_back(
-        fmt::format("{} is not told by this log: it shows where a robot turns, stops or starts", kDelayKey));
-  if (is_untold(study, kShakingKey))
+  if (is_unobservable(study, kDelayKey))
+    notes.push_back(fmt::format(
+        "{} is not observable by this log: it shows where a robot turns, stops or starts", kDelayKey));
+  if (is_unobservable(study, kShakingKey))
     notes.push_back(
         fmt::format("{} stays as it was: less than that looks like turning of the robot", kShakingKey));
   // Sideways little is left over to tell.

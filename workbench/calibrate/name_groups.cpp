@@ -10,7 +10,7 @@
 namespace waymark::calibrate {
 namespace {
 
-constexpr std::size_t kMostRanges = 4;
+constexpr std::size_t kMaxRanges = 4;
 
 /// What stands before and after the parts in which names differ.
 struct Pattern {
@@ -78,8 +78,8 @@ std::string describe_members(const std::vector<std::string>& names, const std::v
   const auto pattern = own_pattern(names, is_member);
   if (pattern) return pattern->before + "*" + pattern->after;
   auto ranges = ranges_of(names, is_member);
-  if (ranges.size() <= kMostRanges) return fmt::format("{}", fmt::join(ranges, ", "));
-  ranges.resize(kMostRanges);
+  if (ranges.size() <= kMaxRanges) return fmt::format("{}", fmt::join(ranges, ", "));
+  ranges.resize(kMaxRanges);
   return fmt::format("{}, ...", fmt::join(ranges, ", "));
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "workbench/calibrate/board_finder.hpp"
-#include "workbench/calibrate/picture_source.hpp"
+#include "workbench/calibrate/image_source.hpp"
 
 namespace waymark::calibrate {
 
@@ -17,7 +17,7 @@ struct OpenCv {
   std::unique_ptr<BoardFinder> (*make_charuco_finder)(const Board& board, int dictionary);
   std::optional<GridSize> (*guess_chessboard)(const ImageView& image);
   /// Null where it knows no such video.
-  std::unique_ptr<PictureSource> (*open_video)(const std::filesystem::path& path);
+  std::unique_ptr<ImageSource> (*open_video)(const std::filesystem::path& path);
 };
 
 /// Loads the module; an error, that `what` needs it and how to get it, where it is not there.

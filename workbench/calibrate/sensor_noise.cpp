@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kOutlierSigmas = 4.0;
 /// A part of the noise that is less surely there is left out.
-constexpr double kTold_sigmas = 2.0;
+constexpr double kObservable_sigmas = 2.0;
 
-/// One number of a sighting: where on its axis, its error, and how it was weighed and followed.
+/// One number of an observation: where on its axis, its error, and how it was weighed and followed.
 struct Sample {
   double at;
   double error;
@@ -28,9 +28,9 @@ Sample sample_of(double at, const smooth::Remainder& rest, Eigen::Index i) {
   return {at, -rest.residual[i], rest.followed[i], rest.stated[i]};
 }
 
-std::vector<Sample> samples_of(const std::vector<smooth::SmoothedSighting>& sightings, bool ranges) {
+std::vector<Sample> samples_of(const std::vector<smooth::SmoothedObservation>& observations, bool ranges) {
   std::vector<Sample> samples;
-  for (const auto& [measured, rest] : sightings) {
+  for (const auto& [measured, rest] : observations) {
     if (const auto* z = std::get_if<RangeBearing>(&measured))
       samples.push_back(sample_of(ranges ? z->range_m : z->bearing_rad, rest, ranges ? 0 : 1));
     else if (const auto* range = std::get_if<Range>(&measured); range != nullptr && ranges)
@@ -82,10 +82,10 @@ int drop_outliers(std::vector<Sample>& samples) {
 }
 
 std::vector<NoiseBin> bins_of(std::vector<Sample> samples) {
-  constexpr std::size_t kMostBins = 8;
-  constexpr std::size_t kLeastCount = 20;
+  constexpr std::size_t kMaxBins = 8;
+  constexpr std::size_t kMinCount = 20;
   std::ranges::sort(samples, {}, &Sample::at);
-  const std::size_t count = std::clamp<std::size_t>(samples.size() / kLeastCount, 1, kMostBins);
+  const std::size_t count = std::clamp<std::size_t>(samples.size() / kMinCount, 1, kMaxBins);
   std::vector<NoiseBin> bins;
   for (std::size_t i = 0; i < count && !samples.empty(); ++i) {
     const std::size_t first = i * samples.size() / count, end = (i + 1) * samples.size() / count;
@@ -115,7 +115,7 @@ RangeNoise fit_range_noise_once(const std::vector<NoiseBin>& bins, const std::op
   if (bins.size() < 3) return {constant, {}};
   const Eigen::Matrix2d P = A.inverse();
   const Eigen::Vector2d line = P * b;
-  if (line[1] < kTold_sigmas * std::sqrt(P(1, 1))) return {constant, {}};
+  if (line[1] < kObservable_sigmas * std::sqrt(P(1, 1))) return {constant, {}};
   if (line[0] <= 0.0) return {{}, {b[1] / A(1, 1), std::sqrt(1.0 / A(1, 1))}};
   return {{line[0], std::sqrt(P(0, 0))}, {line[1], std::sqrt(P(1, 1))}};
 }
@@ -130,9 +130,9 @@ std::optional<RangeNoise> fit_range_noise(const std::vector<NoiseBin>& bins) {
   return noise;
 }
 
-SensorNoise noise_of(const std::vector<smooth::SmoothedSighting>& sightings) {
+SensorNoise noise_of(const std::vector<smooth::SmoothedObservation>& observations) {
   SensorNoise noise;
-  auto ranges = samples_of(sightings, true), bearings = samples_of(sightings, false);
+  auto ranges = samples_of(observations, true), bearings = samples_of(observations, false);
   noise.outliers = drop_outliers(ranges) + drop_outliers(bearings);
   noise.ranges = bins_of(ranges);
   noise.bearings = bins_of(bearings);
@@ -143,11 +143,12 @@ SensorNoise noise_of(const std::vector<smooth::SmoothedSighting>& sightings) {
   return noise;
 }
 
-std::array<VarianceFactor, 3> odometry_variance_of(const std::vector<smooth::LegRemainder>& legs) {
+std::array<VarianceFactor, 3> odometry_variance_of(const std::vector<smooth::IntervalRemainder>& intervals) {
   std::array<VarianceFactor, 3> factors;
   for (Eigen::Index i = 0; i < 3; ++i) {
     std::vector<Sample> samples;
-    for (const auto& leg : legs) samples.push_back({0.0, leg.residual[i], leg.followed[i], leg.stated[i]});
+    for (const auto& interval : intervals)
+      samples.push_back({0.0, interval.residual[i], interval.followed[i], interval.stated[i]});
     drop_outliers(samples);
     factors[static_cast<std::size_t>(i)] = variance_factor(samples);
   }

@@ -41,7 +41,7 @@ struct VarianceFactor {
   double stated = 0.0;      ///< mean of the variances stated
 };
 
-/// What the sightings of a log say of their noise.
+/// What the observations of a log say of their noise.
 struct SensorNoise {
   std::optional<RangeNoise> range;
   std::optional<Value> bearing_sigma_rad;
@@ -51,14 +51,14 @@ struct SensorNoise {
   int outliers = 0;  ///< left out: beyond 4 standard deviations of what is left over
 };
 
-/// Noise from what is left over of sightings by the whole log, in bins of equally many: variances are as many
-/// times larger than stated as the squares of what is left over are larger than the redundancies 1 - H P H^T
-/// / R (Foerstner 1979). What was stated is to be replaced by this until it stays: then R is the mean of r
-/// r^T plus what was followed (the innovation matching of Mehra 1970, by the smoothed estimate).
-[[nodiscard]] SensorNoise noise_of(const std::vector<smooth::SmoothedSighting>& sightings);
+/// Noise from what is left over of observations by the whole log, in bins of equally many: variances are as
+/// many times larger than stated as the squares of what is left over are larger than the redundancies 1 - H P
+/// H^T / R (Foerstner 1979). What was stated is to be replaced by this until it stays: then R is the mean of
+/// r r^T plus what was followed (the innovation matching of Mehra 1970, by the smoothed estimate).
+[[nodiscard]] SensorNoise noise_of(const std::vector<smooth::SmoothedObservation>& observations);
 
 /// By how much variances of the odometry, in x, y and theta, are larger than stated; likewise.
 [[nodiscard]] std::array<VarianceFactor, 3> odometry_variance_of(
-    const std::vector<smooth::LegRemainder>& legs);
+    const std::vector<smooth::IntervalRemainder>& intervals);
 
 }  // namespace waymark::calibrate

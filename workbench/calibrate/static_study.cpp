@@ -18,16 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sightings of one landmark in one recording.
-using Sightings = std::vector<RangeBearing>;
+/// Observations of one landmark in one recording.
+using LandmarkObservations = std::vector<RangeBearing>;
 
 /// What one recording shows, by landmark.
 struct Shown {
   int scans = 0;
-  std::map<std::optional<LandmarkId>, Sightings> landmarks;
+  std::map<std::optional<LandmarkId>, LandmarkObservations> landmarks;
 };
 
-/// Reads a recording's sightings, given or found in pictures.
+/// Reads a recording's observations, given or found in images.
 class Reader {
  public:
   Reader(const Config& config, FrontEnd* markers) : sensor_(config.sensor), markers_(markers) {}
@@ -78,28 +78,29 @@ Result<Shown> read_recording(OpenedInput& opened) {
 }
 
 /// Those of the landmark that the table means.
-Result<Sightings> sightings_of(const StaticPlace& place, const Shown& shown) {
+Result<LandmarkObservations> observations_of(const StaticPlace& place, const Shown& shown) {
   constexpr std::size_t kStray = 10;  // one in so many
   if (place.id) {
     const auto found = std::ranges::find_if(
         shown.landmarks, [&](const auto& each) { return each.first && each.first->number == *place.id; });
-    return found == shown.landmarks.end() ? Sightings{} : found->second;
+    return found == shown.landmarks.end() ? LandmarkObservations{} : found->second;
   }
-  std::vector<const Sightings*> all;
-  for (const auto& [id, sightings] : shown.landmarks) all.push_back(&sightings);
-  std::ranges::sort(all, std::greater{}, [](const Sightings* each) { return each->size(); });
+  std::vector<const LandmarkObservations*> all;
+  for (const auto& [id, landmark_observations] : shown.landmarks) all.push_back(&landmark_observations);
+  std::ranges::sort(all, std::greater{}, [](const LandmarkObservations* each) { return each->size(); });
   if (all.size() > 1 && kStray * all[1]->size() > all[0]->size())
     return Error{fmt::format("{}: it shows {} landmarks: say in a column id which one stands at the place",
                              place.log, all.size())};
-  return all.empty() ? Sightings{} : *all[0];
+  return all.empty() ? LandmarkObservations{} : *all[0];
 }
 
-PlaceStudy study_of(const StaticPlace& place, int scans, const Sightings& sightings) {
-  PlaceStudy study{.place = place, .scans = scans, .sightings = static_cast<int>(sightings.size())};
-  const auto n = static_cast<double>(sightings.size());
+PlaceStudy study_of(const StaticPlace& place, int scans, const LandmarkObservations& landmark_observations) {
+  PlaceStudy study{
+      .place = place, .scans = scans, .observations = static_cast<int>(landmark_observations.size())};
+  const auto n = static_cast<double>(landmark_observations.size());
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> errors;
-  for (const RangeBearing& z : sightings) {
+  for (const RangeBearing& z : landmark_observations) {
     errors.emplace_back(z.range_m - place.range_m, wrap_angle(z.bearing_rad - place.bearing_rad));
     mean += errors.back() / n;
   }
@@ -158,10 +159,10 @@ void fit_range_line(const std::vector<const PlaceStudy*>& places, StaticStudy& s
   study.range_scatter_m = {scatter, scatter / std::sqrt(2.0 * left)};
 }
 
-/// Standard deviation of one sighting at a place: how it repeats, and how places differ.
+/// Standard deviation of one observation at a place: how it repeats, and how places differ.
 Value sigma_at(const PlaceStudy& place, double repeated, const Value& scatter) {
   const double variance = repeated + scatter.value * scatter.value;
-  const double of_repeated = std::sqrt(2.0 / std::max(1, place.sightings - 1)) * repeated;
+  const double of_repeated = std::sqrt(2.0 / std::max(1, place.observations - 1)) * repeated;
   const double of_scatter = 2.0 * scatter.value * scatter.sigma;
   const double sigma = std::sqrt(variance);
   return {sigma, sigma > 0.0 ? std::hypot(of_repeated, of_scatter) / (2.0 * sigma) : 0.0};
@@ -180,7 +181,7 @@ std::optional<double> edge(const std::vector<PlaceStudy>& places,
 }
 
 /// A place out of view to the side says nothing of ranges, nor one out of range of the view.
-Limits limits_of(const std::vector<PlaceStudy>& places) {
+SensorLimits limits_of(const std::vector<PlaceStudy>& places) {
   double reach_m = 0.0, nearest_m = 1e9, widest_rad = 0.0;
   for (const PlaceStudy& each : places)
     if (each.is_usable()) {
@@ -206,14 +207,14 @@ Limits limits_of(const std::vector<PlaceStudy>& places) {
 
 std::vector<std::string> notes_of(const StaticStudy& study) {
   std::vector<std::string> notes;
-  const Limits& limits = study.limits;
+  const SensorLimits& limits = study.limits;
   if (!study.range_scale)
     notes.emplace_back(
         "a scale of the ranges cannot be told from an offset: measure at three distances or more");
   if (!limits.max_range_m)
-    notes.emplace_back("the largest usable range is not told: no place ahead was too far");
+    notes.emplace_back("the largest usable range is not observable: no place ahead was too far");
   if (!limits.min_range_m)
-    notes.emplace_back("the smallest usable range is not told: no place ahead was too near");
+    notes.emplace_back("the smallest usable range is not observable: no place ahead was too near");
   if (limits.left_rad.has_value() != limits.right_rad.has_value())
     notes.emplace_back(
         fmt::format("the field of view ends {:.1f} deg to the {}; how far it reaches to the other side was "
@@ -222,11 +223,11 @@ std::vector<std::string> notes_of(const StaticStudy& study) {
                     to_degrees(std::abs(limits.left_rad ? *limits.left_rad : *limits.right_rad)),
                     limits.left_rad ? "left" : "right"));
   if (!limits.left_rad && !limits.right_rad)
-    notes.emplace_back("the field of view is not told: no place was out of it to a side");
+    notes.emplace_back("the field of view is not observable: no place was out of it to a side");
   return notes;
 }
 
-bool is_told(const Value& value, double neutral) {
+bool is_observable(const Value& value, double neutral) {
   return std::abs(value.value - neutral) > 2.0 * value.sigma;
 }
 
@@ -273,15 +274,15 @@ Result<StaticStudy> study_of(std::vector<PlaceStudy> places) {
   double repeated = 0.0;
   PlaceStudy all;
   for (const PlaceStudy* each : usable) {
-    bins.push_back({each->place.range_m, each->sightings, each->range_error_m,
+    bins.push_back({each->place.range_m, each->observations, each->range_error_m,
                     sigma_at(*each, each->covariance(0, 0), study.range_scatter_m)});
-    repeated += each->covariance(1, 1) * (each->sightings - 1);
-    all.sightings += each->sightings - 1;
+    repeated += each->covariance(1, 1) * (each->observations - 1);
+    all.observations += each->observations - 1;
   }
   std::ranges::sort(bins, {}, &NoiseBin::at);
   study.range = fit_range_noise(bins);
-  ++all.sightings;
-  study.bearing_sigma_rad = sigma_at(all, repeated / (all.sightings - 1), study.bearing_scatter_rad);
+  ++all.observations;
+  study.bearing_sigma_rad = sigma_at(all, repeated / (all.observations - 1), study.bearing_scatter_rad);
   study.limits = limits_of(study.places);
   study.notes = notes_of(study);
   return study;
@@ -299,9 +300,9 @@ Result<StaticStudy> study_places(const std::vector<StaticPlace>& places, const U
     before = opened->config;
     const auto shown = read_recording(*opened);
     if (!shown) return shown.error();
-    const auto sightings = sightings_of(place, *shown);
-    if (!sightings) return sightings.error();
-    studied.push_back(study_of(place, shown->scans, *sightings));
+    const auto landmark_observations = observations_of(place, *shown);
+    if (!landmark_observations) return landmark_observations.error();
+    studied.push_back(study_of(place, shown->scans, *landmark_observations));
   }
   auto study = study_of(std::move(studied));
   if (study) study->before = before;
@@ -316,12 +317,12 @@ std::string to_yaml(const StaticStudy& study) {
   const LandmarkSensor& before = study.before.sensor;
   const bool markers = study.before.observe == Observe::kMarkers;
   const Value scale = study.range_scale.value_or(Value{1.0, 0.0});
-  if (study.range_scale && is_told(scale, 1.0))
+  if (study.range_scale && is_observable(scale, 1.0))
     add("sensor.range_scale", before.range_scale * scale.value, before.range_scale * scale.sigma);
-  if (is_told(study.range_offset_m, 0.0))
+  if (is_observable(study.range_offset_m, 0.0))
     add("sensor.range_offset_m", before.range_offset_m + before.range_scale * study.range_offset_m.value,
         before.range_scale * study.range_offset_m.sigma);
-  if (is_told(study.bearing_offset_rad, 0.0))
+  if (is_observable(study.bearing_offset_rad, 0.0))
     add(markers ? "camera.mount_yaw_deg" : "sensor.yaw_deg",
         before.yaw_deg - to_degrees(study.bearing_offset_rad.value),
         to_degrees(study.bearing_offset_rad.sigma));
@@ -331,7 +332,7 @@ std::string to_yaml(const StaticStudy& study) {
   }
   add("sensor.bearing_sigma_deg", std::max(1e-6, to_degrees(study.bearing_sigma_rad.value)),
       to_degrees(study.bearing_sigma_rad.sigma));
-  const Limits& limits = study.limits;
+  const SensorLimits& limits = study.limits;
   if (limits.min_range_m) yaml += fmt::format("sensor.min_range_m: {:.6g}\n", *limits.min_range_m);
   if (limits.max_range_m) yaml += fmt::format("sensor.max_range_m: {:.6g}\n", *limits.max_range_m);
   if (limits.left_rad && limits.right_rad)

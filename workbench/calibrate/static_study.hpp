@@ -25,18 +25,20 @@ struct StaticPlace {
 struct PlaceStudy {
   StaticPlace place;
   int scans = 0;
-  int sightings = 0;
+  int landmark_observations = 0;
   double range_error_m = 0.0;  ///< mean of what was measured less what is true
   double bearing_error_rad = 0.0;
   Eigen::Matrix2d covariance =
-      Eigen::Matrix2d::Zero();  ///< of one sighting about that mean: range m, bearing rad
+      Eigen::Matrix2d::Zero();  ///< of one observation about that mean: range m, bearing rad
 
   /// In half of the scans or more.
-  [[nodiscard]] bool is_usable() const { return 2 * sightings >= scans && sightings > 1; }
+  [[nodiscard]] bool is_usable() const {
+    return 2 * landmark_observations >= scans && landmark_observations > 1;
+  }
 };
 
 /// The end of what can be used on one side: the last place that can, if one beyond it cannot.
-struct Limits {
+struct SensorLimits {
   std::optional<double> min_range_m, max_range_m;
   std::optional<double> left_rad, right_rad;  ///< bearings; left is positive
 };
@@ -50,19 +52,19 @@ struct StaticStudy {
   Value range_scatter_m;  ///< standard deviation of a place's mean error from what scale and offset say
   Value bearing_scatter_rad;
   std::optional<RangeNoise>
-      range;  ///< of one sighting at a place that was not studied: repetition and scatter
+      range;  ///< of one observation at a place that was not studied: repetition and scatter
   Value bearing_sigma_rad;
-  Limits limits;
+  SensorLimits limits;
   Config before;
   std::vector<std::string> notes;
 };
 
 /// From what was seen at each place: errors by least squares over the places, which count alike however many
-/// sightings they have, since a sensor repeats at one place what is wrong there. At least two places that
+/// observations they have, since a sensor repeats at one place what is wrong there. At least two places that
 /// can be used.
 [[nodiscard]] Result<StaticStudy> study_of(std::vector<PlaceStudy> places);
 
-/// Reads all recordings. Pictures are searched for markers. `keep_going` as in record(); false stops.
+/// Reads all recordings. Images are searched for markers. `keep_going` as in record(); false stops.
 [[nodiscard]] Result<StaticStudy> study_places(const std::vector<StaticPlace>& places,
                                                const UserSettings& user,
                                                const std::function<bool(double)>& keep_going = {});

@@ -17,11 +17,11 @@ using Sides = std::vector<bool>;
 
 struct Task {
   const Board& board;
-  const std::vector<View>& all;
+  const std::vector<BoardView>& all;
   Places places;  ///< of the views to split
   ImageSize size;
 
-  [[nodiscard]] const View& view(std::size_t i) const { return all[places[i]]; }
+  [[nodiscard]] const BoardView& view(std::size_t i) const { return all[places[i]]; }
   [[nodiscard]] std::size_t count() const { return places.size(); }
 
   [[nodiscard]] Result<CameraFit> fit(const Places& members) const {
@@ -73,7 +73,7 @@ Sides above(const Eigen::VectorXd& values, double limit) {
 
 /// How the corners of a view pull at the intrinsics: the derivative of half its sum of squares, turned round.
 /// The pose has no part in it, for it is where nothing pulls at it.
-Intrinsics score(const Task& task, const View& view, const FittedView& fit, const Camera& camera) {
+Intrinsics score(const Task& task, const BoardView& view, const FittedView& fit, const Camera& camera) {
   Intrinsics sum = Intrinsics::Zero();
   for (std::size_t k = 0; k < view.corners.size(); ++k) {
     const Eigen::Vector2d m = task.board.corner_m(view.corners[k].index);
@@ -127,7 +127,7 @@ std::vector<Sides> starts(const Task& task, const CameraFit& one) {
   std::ranges::transform(one.views, errors.begin(), [](const FittedView& view) { return view.rms_px(); });
   Eigen::VectorXd sorted = errors;
   std::ranges::sort(sorted, std::greater());
-  for (const Eigen::Index worst : {Eigen::Index{kLeastViews}, count / 4})
+  for (const Eigen::Index worst : {Eigen::Index{kMinViews}, count / 4})
     result.push_back(above(errors, sorted[worst]));
   return result;
 }
@@ -137,7 +137,7 @@ std::optional<Split> fit_groups(const Task& task, const Sides& sides) {
   Split split{.sides = sides, .fits = {}};
   for (const bool side : {false, true}) {
     const Places group = members(sides, side);
-    if (group.size() < kLeastViews) return std::nullopt;
+    if (group.size() < kMinViews) return std::nullopt;
     auto fit = task.fit(group);
     if (!fit) return std::nullopt;
     split.fits[side] = *std::move(fit);
@@ -214,7 +214,7 @@ std::optional<double> contrast_of(const Task& task, const CameraFit& one, const 
   return gain_px2 / cost_px2 / static_cast<double>(task.count());
 }
 
-Places to_split(const std::vector<View>& views) {
+Places to_split(const std::vector<BoardView>& views) {
   Places places;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].fate == Fate::kUsed || views[i].fate == Fate::kOutlier) places.push_back(i);
@@ -229,17 +229,17 @@ TwoCameras::Group group_of(const Task& task, const Split& split, bool side) {
 
 }  // namespace
 
-std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<View>& views,
-                                           double least_contrast) {
+std::optional<TwoCameras> find_two_cameras(const Board& board, const std::vector<BoardView>& views,
+                                           double min_contrast) {
   Task task{.board = board, .all = views, .places = to_split(views), .size = {}};
-  if (task.count() < 2 * kLeastViews) return std::nullopt;
+  if (task.count() < 2 * kMinViews) return std::nullopt;
   task.size = task.view(0).size;
   Places all(task.count());
   std::iota(all.begin(), all.end(), 0);
   const auto one = task.fit(all);
   const auto split = one ? best_split(task, *one) : std::nullopt;
   const auto contrast = split ? contrast_of(task, *one, *split) : std::nullopt;
-  if (!contrast || *contrast < least_contrast) return std::nullopt;
+  if (!contrast || *contrast < min_contrast) return std::nullopt;
   return TwoCameras{.groups = {group_of(task, *split, false), group_of(task, *split, true)},
                     .together_px = one->rms_px,
                     .contrast = *contrast};

@@ -4,12 +4,12 @@
 
 namespace waymark::calibrate {
 
-Result<std::unique_ptr<PictureSource>> open_video(const std::filesystem::path& path) {
+Result<std::unique_ptr<ImageSource>> open_video(const std::filesystem::path& path) {
   const auto opencv = load_opencv(path.string() + ": reading a video");
   if (!opencv) return opencv.error();
   if (auto video = (*opencv)->open_video(path)) return video;
   return Error{path.string() +
-               " is neither a picture (PNG, JPEG, PGM), nor a bag, nor a video that can be decoded"};
+               " is neither an image (PNG, JPEG, PGM), nor a bag, nor a video that can be decoded"};
 }
 
 }  // namespace waymark::calibrate

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "workbench/calibrate/picture_source.hpp"
+#include "workbench/calibrate/image_source.hpp"
 
 namespace waymark::calibrate {
 
 /// The frames of a video, kFramesPerSecond of them; an error where OpenCV knows no such video or its module
 /// is missing.
-[[nodiscard]] Result<std::unique_ptr<PictureSource>> open_video(const std::filesystem::path& path);
+[[nodiscard]] Result<std::unique_ptr<ImageSource>> open_video(const std::filesystem::path& path);
 
 }  // namespace waymark::calibrate

@@ -11,7 +11,7 @@ namespace waymark::calibrate {
 namespace {
 
 constexpr int kShownWidth_px = 320;
-constexpr double kAlike = 0.04;  // of the picture's width
+constexpr double kAlike = 0.04;  // of the image's width
 
 /// Means over squares of pixels.
 GreyImage reduced(const ImageView& image, int by) {
@@ -27,7 +27,7 @@ GreyImage reduced(const ImageView& image, int by) {
 }
 
 /// Nothing: the views have too few corners in common to tell.
-bool is_alike(const View& a, const View& b) {
+bool is_alike(const BoardView& a, const BoardView& b) {
   double distance_px = 0.0;
   std::size_t common = 0;
   auto other = b.corners.begin();
@@ -38,14 +38,14 @@ bool is_alike(const View& a, const View& b) {
     distance_px += (pixel - other->pixel).norm();
     ++common;
   }
-  return a.size == b.size && common >= kLeastCorners &&
+  return a.size == b.size && common >= kMinCorners &&
          distance_px < kAlike * a.size.width_px * static_cast<double>(common);
 }
 
-void compare_with(const std::vector<View>& others, View& view) {
+void compare_with(const std::vector<BoardView>& others, BoardView& view) {
   if (view.fate != Fate::kUsed) return;
   const auto like = std::ranges::find_if(
-      others, [&](const View& other) { return other.fate == Fate::kUsed && is_alike(view, other); });
+      others, [&](const BoardView& other) { return other.fate == Fate::kUsed && is_alike(view, other); });
   if (like == others.end()) return;
   view.fate = Fate::kAlike;
   view.why = "the board lies as in " + like->name;
@@ -59,14 +59,14 @@ const char* name_of(Fate fate) {
   return kNames[static_cast<std::size_t>(fate)];
 }
 
-View look_at(const Picture& picture, const Board& board, BoardFinder& finder) {
-  View view{.name = picture.name};
-  if (!picture.pixels) {
+BoardView measure_view(const NamedImage& frame, const Board& board, BoardFinder& finder) {
+  BoardView view{.name = frame.name};
+  if (!frame.pixels) {
     view.fate = Fate::kUnreadable;
-    view.why = picture.pixels.error().message;
+    view.why = frame.pixels.error().message;
     return view;
   }
-  const GreyImage& pixels = *picture.pixels;
+  const GreyImage& pixels = *frame.pixels;
   view.size = {pixels.width_px(), pixels.height_px()};
   view.reduction = std::max(1, (view.size.width_px + kShownWidth_px - 1) / kShownWidth_px);
   view.small = reduced(pixels, view.reduction);
@@ -74,7 +74,7 @@ View look_at(const Picture& picture, const Board& board, BoardFinder& finder) {
   if (view.corners.empty()) {
     view.fate = Fate::kNoBoard;
     view.why = "no " + describe(board);
-  } else if (view.corners.size() < kLeastCorners || !plane_homography(board, view.corners)) {
+  } else if (view.corners.size() < kMinCorners || !plane_homography(board, view.corners)) {
     view.fate = Fate::kFewCorners;
     view.why = "too few corners of the board, or all on a line";
   }
@@ -82,32 +82,32 @@ View look_at(const Picture& picture, const Board& board, BoardFinder& finder) {
   return view;
 }
 
-Result<std::vector<View>> collect_views(PictureSource& pictures, const Board& board, BoardFinder& finder,
-                                        const std::function<bool(double)>& keep_going) {
-  std::vector<View> views;
+Result<std::vector<BoardView>> collect_views(ImageSource& images, const Board& board, BoardFinder& finder,
+                                             const std::function<bool(double)>& keep_going) {
+  std::vector<BoardView> views;
   while (true) {
-    auto picture = pictures.next();
-    if (!picture) return picture.error();
-    if (!*picture) return views;
-    View view = look_at(**picture, board, finder);
-    if (pictures.is_stream()) {
+    auto frame = images.next();
+    if (!frame) return frame.error();
+    if (!*frame) return views;
+    BoardView view = measure_view(**frame, board, finder);
+    if (images.is_stream()) {
       compare_with(views, view);
       if (view.fate != Fate::kUsed) view.small = GreyImage();
     }
     views.push_back(std::move(view));
-    if (keep_going && !keep_going(pictures.progress()))
-      return Error{"stopped before all pictures were looked at", Error::Kind::kFailed};
+    if (keep_going && !keep_going(images.progress()))
+      return Error{"stopped before all images were looked at", Error::Kind::kFailed};
   }
 }
 
-std::optional<GridSize> guess_chessboard(PictureSource& pictures) {
+std::optional<GridSize> guess_chessboard(ImageSource& images) {
   constexpr int kLookedAt = 20;
   constexpr GridSize kSmallest{3, 3};  // many things look like it
   std::map<std::pair<int, int>, int> votes;
   for (int i = 0; i < kLookedAt; ++i) {
-    const auto picture = pictures.next();
-    if (!picture || !*picture) break;
-    const auto& pixels = (**picture).pixels;
+    const auto frame = images.next();
+    if (!frame || !*frame) break;
+    const auto& pixels = (**frame).pixels;
     const auto grid = pixels ? guess_chessboard(*pixels) : std::nullopt;
     if (grid && *grid != kSmallest) ++votes[{grid->columns, grid->rows}];
   }

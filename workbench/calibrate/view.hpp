@@ -7,23 +7,23 @@
 
 #include "workbench/calibrate/board_finder.hpp"
 #include "workbench/calibrate/camera_fit.hpp"
-#include "workbench/calibrate/picture_source.hpp"
+#include "workbench/calibrate/image_source.hpp"
 #include "workbench/logs/image_file.hpp"
 
 namespace waymark::calibrate {
 
-/// What became of a picture.
+/// What became of an image.
 enum class Fate { kUsed, kUnreadable, kOtherSize, kNoBoard, kFewCorners, kAlike, kBlurred, kOutlier };
 
 /// "used", "no board", ...
 [[nodiscard]] const char* name_of(Fate fate);
 
-/// A picture, and what it says of the board.
-struct View {
+/// An image, and what it says of the board.
+struct BoardView {
   std::string name;
   ImageSize size;
-  GreyImage small;    ///< the picture reduced for showing; empty where it is not shown
-  int reduction = 1;  ///< how many pixels of the picture are one of the small one
+  GreyImage small;    ///< the image reduced for showing; empty where it is not shown
+  int reduction = 1;  ///< how many pixels of the image are one of the small one
   BoardCorners corners;
   double edge_px = 0.0;  ///< see edge_width_px()
   Fate fate = Fate::kUsed;
@@ -34,17 +34,17 @@ struct View {
   [[nodiscard]] bool is_shown() const { return small.width_px() > 0; }
 };
 
-/// The view of a picture, its fate open unless there is no board in it.
-[[nodiscard]] View look_at(const Picture& picture, const Board& board, BoardFinder& finder);
+/// The view of an image, its fate open unless there is no board in it.
+[[nodiscard]] BoardView measure_view(const NamedImage& frame, const Board& board, BoardFinder& finder);
 
-/// Looks for the board in every picture. Of a stream, a view in which the board lies as in one before (its
-/// corners within 4 % of the picture's width, on average) is kept by name only, and so is one without a
+/// Looks for the board in every image. Of a stream, a view in which the board lies as in one before (its
+/// corners within 4 % of the image's width, on average) is kept by name only, and so is one without a
 /// board. `keep_going` is asked with the part done; false ends it with an error.
-[[nodiscard]] Result<std::vector<View>> collect_views(PictureSource& pictures, const Board& board,
-                                                      BoardFinder& finder,
-                                                      const std::function<bool(double)>& keep_going = {});
+[[nodiscard]] Result<std::vector<BoardView>> collect_views(
+    ImageSource& images, const Board& board, BoardFinder& finder,
+    const std::function<bool(double)>& keep_going = {});
 
-/// The inner corners of the chessboard that most of the first pictures show, two of them at least.
-[[nodiscard]] std::optional<GridSize> guess_chessboard(PictureSource& pictures);
+/// The inner corners of the chessboard that most of the first images show, two of them at least.
+[[nodiscard]] std::optional<GridSize> guess_chessboard(ImageSource& images);
 
 }  // namespace waymark::calibrate

@@ -13,7 +13,7 @@ namespace waymark::calibrate {
 namespace {
 
 // Where a set of views becomes weak. What photographers of boards are told (10 to 20 views, tilted, all over
-// the picture, errors well below a pixel) as numbers.
+// the image, errors well below a pixel) as numbers.
 constexpr std::size_t kViews = 10;
 constexpr double kRms_px = 1.0;
 constexpr double kHeldOut = 1.5;  // times the error within the fit
@@ -22,7 +22,7 @@ constexpr double kProjection_px = 2.0;
 constexpr double kTilt_deg = 15.0;
 constexpr std::size_t kTilted = 3;  // views
 constexpr double kCovered = 0.6;
-constexpr double kOffCentre = 0.1;  // of the picture's width
+constexpr double kOffCentre = 0.1;  // of the image's width
 constexpr double kSquare = 0.015;
 
 constexpr const char* kTiltIt =
@@ -95,11 +95,10 @@ void check_symptoms(const CameraCalibration& c, Found& found) {
   const double off_px =
       std::hypot(camera.cu_px - 0.5 * (camera.width_px - 1), camera.cv_px - 0.5 * (camera.height_px - 1));
   if (off_px > kOffCentre * camera.width_px)
-    found.push_back(
-        {fmt::format("the principal point is {:.0f} px off the middle of the picture, further than "
-                     "lenses are mounted: the views leave it open",
-                     off_px),
-         "turn the board and the camera by 90 degrees in some views, and fill the whole picture"});
+    found.push_back({fmt::format("the principal point is {:.0f} px off the middle of the image, further than "
+                                 "lenses are mounted: the views leave it open",
+                                 off_px),
+                     "turn the board and the camera by 90 degrees in some views, and fill the whole image"});
   const double ratio = std::abs(camera.fu_px / camera.fv_px - 1.0);
   if (ratio > kSquare)
     found.push_back(
@@ -117,7 +116,7 @@ void check_tilts(const CameraCalibration& c, Found& found) {
   for (const FittedView& view : c.fit.views) distances.push_back(distance_m(view, c.board));
   const auto [near, far] = std::ranges::minmax(distances);
   found.push_back(
-      {fmt::format("the board is parallel to the picture, to {:.0f} degrees, in all but {} views, and the "
+      {fmt::format("the board is parallel to the image, to {:.0f} degrees, in all but {} views, and the "
                    "farthest is {:.1f} times as far as the nearest: focal length and distance cannot be "
                    "told apart",
                    kTilt_deg, tilted, far / near),
@@ -128,13 +127,13 @@ void check_coverage(const CameraCalibration& c, ImageSize size, Found& found) {
   double worst_px = 0.0;
   for (const ProjectionSigma& place : c.projection) worst_px = std::max(worst_px, place.sigma_px);
   const auto empty = empty_ninths(c.views, size);
-  const std::string where = empty.empty() ? std::string("near the borders and corners of the picture")
-                                          : fmt::format("at the {} of the picture", fmt::join(empty, ", "));
+  const std::string where = empty.empty() ? std::string("near the borders and corners of the image")
+                                          : fmt::format("at the {} of the image", fmt::join(empty, ", "));
   if (c.covered < kCovered)
-    found.push_back({fmt::format("corners cover {:.0f} % of the picture", 100.0 * c.covered),
+    found.push_back({fmt::format("corners cover {:.0f} % of the image", 100.0 * c.covered),
                      "photograph the board " + where});
   if (worst_px > kProjection_px)
-    found.push_back({fmt::format("somewhere in the picture the lens is known to {:.1f} px only", worst_px),
+    found.push_back({fmt::format("somewhere in the image the lens is known to {:.1f} px only", worst_px),
                      "photograph the board " + where});
 }
 

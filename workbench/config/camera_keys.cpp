@@ -20,7 +20,7 @@ void describe(Schema& schema, vision::SearchOptions& o) {
 
 void describe(Schema& schema, vision::FrameBudgetOptions& options) {
   schema.real("tracker.frame_budget_ms", options.per_frame_ms, {0.001, 10000.0},
-              "time for a picture; what is left out when it is used up is looked for in later ones",
+              "time for an image; what is left out when it is used up is looked for in later ones",
               Shown::kAlways);
   schema.choice("tracker.budget", options.kind, {"work", "clock"},
                 "how it is counted: work (fixed costs, the same in every replay) or clock (CPU time)",
@@ -48,16 +48,16 @@ void describe(Schema& schema, markers::MarkerOptions& o) {
   for (const markers::MarkerDictionary& each : markers::marker_dictionaries()) names.push_back(each.name);
   schema.text("markers.dictionary", o.dictionary,
               fmt::format("which markers there are: {}", fmt::join(names, ", ")), Shown::kAlways);
-  schema.real("markers.size_m", o.size_m, {0.0, 100.0},
-              "side of the black square of a marker, m; 0: nobody said", Shown::kAlways);
+  schema.real("markers.size_m", o.size_m, {0.0, 100.0}, "side of the black square of a marker, m; 0: unset",
+              Shown::kAlways);
   schema.text("markers.sizes_m", o.sizes_m, "sides of those that differ, m, as '3: 0.1, 7: 0.25'",
               Shown::kAlways);
   schema.real("markers.side_sigma_px", o.side_sigma_px, {1e-3, 100.0},
               "standard deviation of one point on a side of a marker, pixels");
   schema.real("markers.corner_sigma_px", o.corner_sigma_px, {1e-3, 100.0},
-              "noise of a corner of a marker that another program found, px, where a bag has no pictures");
+              "noise of a corner of a marker that another program found, px, where a bag has no images");
   schema.integer("markers.confirm", o.confirm, {1, 1000},
-                 "pictures close together that must show a new identity before it is believed");
+                 "images close together that must show a new identity before it is believed");
 }
 
 }  // namespace waymark

@@ -15,14 +15,14 @@ void resample_always(FastSlamOptions& o, bool always) {
 
 void describe(Schema& schema, GateOptions& options) {
   schema.real("gate.probability", options.probability, {0.5, 1.0},
-              "part of the true sightings that may pass the gate; 1 lets all pass");
+              "part of the true observations that may pass the gate; 1 lets all pass");
 }
 
 void describe(Schema& schema, AssociationOptions& o) {
   schema.real("association.false_alarm_probability", o.false_alarm_probability, {1e-6, 0.5},
               "chance per scan that something else is taken for a landmark");
   schema.real("association.clutter_per_scan", o.clutter_per_scan, {1e-6, 1e4},
-              "sightings of nothing per scan");
+              "observations of nothing per scan");
   schema.real("association.landmarks_per_m2", o.landmarks_per_m2, {0.0, 1e3},
               "density of landmarks that are not known yet");
 }
@@ -38,7 +38,7 @@ void describe(Schema& schema, EkfOptions& options) {
       "ekf.likelihood", options.likelihood, {"gaussian", "student"},
       "student: heavy tails, for outliers that no gate finds; takes up to 3 iterations in any case");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
-                "whether a large map is updated region by region, at the cost of a small one; auto: once it "
+                "whether a large map is updated submap by submap, at the cost of a small one; auto: once it "
                 "is large enough to gain");
   describe(schema, options.odometry);
 }
@@ -55,9 +55,9 @@ void describe(Schema& schema, PixelSlamOptions& options) {
   schema.real("pixel.sigma_px", options.sigma_px, {1e-3, 100.0},
               "standard deviation of pixels that came without covariance, px");
   schema.real("pixel.model_sigma_px", options.model_sigma_px, {0.0, 100.0},
-              "what every pixel is off besides, anew in every picture, px");
+              "what every pixel is off besides, anew in every image, px");
   schema.real(
-      "pixel.wander_px", options.wander_px, {0.0, 100.0},
+      "pixel.landmark_noise_px", options.landmark_noise_px, {0.0, 100.0},
       "standard deviation of how far the place of a patch wanders on its surface while the view of it "
       "turns by 1 deg, px; grows with the root of the angle");
   schema.real("pixel.nearest_m", options.depth.nearest_m, {0.01, 1000.0}, "smallest depth of a new point, m");
@@ -66,7 +66,7 @@ void describe(Schema& schema, PixelSlamOptions& options) {
 
 void describe(Schema& schema, FastSlamOptions& o) {
   schema.choice("fastslam.proposal", o.proposal, {"1.0", "2.0"},
-                "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and sightings");
+                "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and observations");
   schema.integer("fastslam.particles", o.particles, {1, 10'000'000}, "number of particles", Shown::kAlways);
   schema.boolean(
       "fastslam.always_resample", [&o] { return resamples_always(o); },
@@ -75,14 +75,14 @@ void describe(Schema& schema, FastSlamOptions& o) {
       "left, "
       "by weights that keep a tenth of them");
   schema.real(
-      "fastslam.move_above", o.move_above, {0.0, 1e9},
-      "move 100 particles and their maps, instead of weighing them, where what they expect to see varies "
-      "by more than this part of its noise; n times as many by n times as much");
+      "fastslam.enkf_above", o.enkf_above, {0.0, 1e9},
+      "use the EnKF update where the spread of predicted innovations over their noise exceeds this, for 100 "
+      "particles; grows in proportion to their number");
   schema.real("fastslam.noise_inflation", o.noise_inflation, {0.1, 100.0},
               "factor on the standard deviations of observations; few particles need a blunter sensor");
   schema.real(
-      "fastslam.evidence_way_m", o.evidence_way_m, {0.0, 1000.0},
-      "a landmark seen again after this way counts 63 % in the weights; 0: every sighting counts in full");
+      "fastslam.information_distance_m", o.information_distance_m, {0.0, 1000.0},
+      "a landmark seen again after this way counts 63 % in the weights; 0: every observation counts in full");
 }
 
 void describe(Schema& schema, SmoothOptions& o) {
@@ -95,10 +95,10 @@ void describe(Schema& schema, SmoothOptions& o) {
   schema.boolean("smooth.odometry_is_commanded", o.odometry_is_commanded,
                  "what is logged are commands, from which the robot strays; else it was measured, and it is "
                  "the measurements that err");
-  schema.real("smooth.least_leg_m", o.least_leg_m, {0.0, 1000.0},
+  schema.real("smooth.keyframe_distance_m", o.keyframe_distance_m, {0.0, 1000.0},
               "what is seen nearer than this to the last pose that is estimated, and after less turning than "
-              "smooth.least_leg_deg, is left out, m");
-  schema.real("smooth.least_leg_deg", o.least_leg_deg, {0.0, 360.0}, "the turning there, degrees");
+              "smooth.keyframe_turn_deg, is left out, m");
+  schema.real("smooth.keyframe_turn_deg", o.keyframe_turn_deg, {0.0, 360.0}, "the turning there, degrees");
   schema.real(
       "smooth.turn_per_m_sigma_deg", o.turn_per_m_sigma_deg, {0.0, 1000.0},
       "standard deviation of what the odometry turns by itself per metre, as with wheels of different size, "

@@ -14,9 +14,9 @@ namespace waymark {
 namespace {
 
 // A bag of ten thousand files has a metadata.yaml of a quarter of this; nothing else that is read comes near.
-constexpr std::size_t kMostBytes = std::size_t{8} << 20;
-constexpr std::size_t kMostNodes = 400'000;
-constexpr std::size_t kMostDepth = 64;
+constexpr std::size_t kMaxBytes = std::size_t{8} << 20;
+constexpr std::size_t kMaxNodes = 400'000;
+constexpr std::size_t kMaxDepth = 64;
 
 /// What a part of a text comes to when its aliases are replaced.
 struct Extent {
@@ -73,7 +73,7 @@ class ExtentMeter final : public YAML::EventHandler {
   }
 
   void begin(const YAML::Mark& mark, YAML::anchor_t anchor) {
-    if (open_.size() == kMostDepth) throw YAML::ParserException(mark, "nested too deep");
+    if (open_.size() == kMaxDepth) throw YAML::ParserException(mark, "nested too deep");
     open_.push_back({mark, anchor, {}});
   }
 
@@ -88,8 +88,8 @@ class ExtentMeter final : public YAML::EventHandler {
     if (open_.empty()) return;
     Extent& whole = open_.back().extent;
     whole.add(part);
-    if (whole.depth > kMostDepth) throw YAML::ParserException(mark, "nested too deep");
-    if (whole.nodes > kMostNodes || whole.bytes > kMostBytes)
+    if (whole.depth > kMaxDepth) throw YAML::ParserException(mark, "nested too deep");
+    if (whole.nodes > kMaxNodes || whole.bytes > kMaxBytes)
       throw YAML::ParserException(mark, "too many values, aliases counted as what they stand for");
   }
 
@@ -107,9 +107,9 @@ void check_extent(const std::string& yaml) {
 }  // namespace
 
 Result<YAML::Node> load_yaml(const std::string& yaml, const std::string& name) {
-  if (yaml.size() > kMostBytes)
+  if (yaml.size() > kMaxBytes)
     return Error{
-        fmt::format("{}: {} bytes of YAML; more than {} are not read", name, yaml.size(), kMostBytes)};
+        fmt::format("{}: {} bytes of YAML; more than {} are not read", name, yaml.size(), kMaxBytes)};
   try {
     check_extent(yaml);
     return YAML::Load(yaml);

@@ -65,19 +65,19 @@ void describe(Schema& schema, LandmarkSensor& s) {
               "the same of an offset of all ranges");
   schema.real("sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
               "the same of all bearings, degrees");
-  schema.real("sensor.lasting_range_sigma_ratio", s.errors.lasting_range_sigma_ratio, {0.0, 1.0},
+  schema.real("sensor.bias_range_sigma_ratio", s.errors.bias_range_sigma_ratio, {0.0, 1.0},
               "standard deviation of what successive ranges to one landmark have in common, per metre");
-  schema.real("sensor.lasting_bearing_sigma_deg", s.errors.lasting_bearing_sigma_deg, {0.0, 90.0},
+  schema.real("sensor.bias_bearing_sigma_deg", s.errors.bias_bearing_sigma_deg, {0.0, 90.0},
               "the same of bearings, degrees");
-  schema.real("sensor.lasting_way_m", s.errors.lasting_way_m, {1e-3, 1e3},
-              "way after which 37 % of what successive sightings have in common are left, m");
+  schema.real("sensor.bias_distance_m", s.errors.bias_distance_m, {1e-3, 1e3},
+              "way after which 37 % of what successive observations have in common are left, m");
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "shortest range that counts, m");
   schema.real("sensor.max_range_m", s.max_range_m, {0.0, 1e6}, "longest range that counts, m");
   schema.real("sensor.field_of_view_deg", s.field_of_view_deg, {0.0, 360.0}, "full opening angle, degrees");
-  schema.real(
-      "sensor.detection_probability", s.detection_probability, {0.0, 0.999},
-      "chance that a landmark within these limits is reported; 0: that one is not reported says nothing");
-  schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0}, "how much later than the sighting its stamp is, s");
+  schema.real("sensor.detection_probability", s.detection_probability, {0.0, 0.999},
+              "chance that a landmark within these limits is reported; 0 disables negative information");
+  schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0},
+              "how much later than the observation its stamp is, s");
 }
 
 void describe(Schema& schema, CameraOptions& o) {

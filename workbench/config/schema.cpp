@@ -26,7 +26,7 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-std::string describe_limits(Limits limits) {
+std::string describe_limits(ValueLimits limits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (limits.low == -kInfinity && limits.high == kInfinity) return "any number";
   if (limits.high == kInfinity) return fmt::format("at least {}", limits.low);
@@ -59,8 +59,8 @@ void Schema::add(Key key) {
 }
 
 template <class Number>
-void Schema::add_number(std::string name, std::vector<Number*> fields, Limits limits, std::string allowed,
-                        std::string help, Shown shown) {
+void Schema::add_number(std::string name, std::vector<Number*> fields, ValueLimits limits,
+                        std::string allowed, std::string help, Shown shown) {
   auto get = [field = fields.front()] { return fmt::format("{}", *field); };
   auto set = [fields = std::move(fields), limits](std::string_view text) {
     const auto number = parse_number<Number>(text);
@@ -73,27 +73,28 @@ void Schema::add_number(std::string name, std::vector<Number*> fields, Limits li
   add({std::move(name), std::move(help), std::move(allowed), std::move(get), std::move(set), shown});
 }
 
-void Schema::real(std::string name, std::vector<double*> fields, Limits limits, std::string help,
+void Schema::real(std::string name, std::vector<double*> fields, ValueLimits limits, std::string help,
                   Shown shown) {
   add_number(std::move(name), std::move(fields), limits, describe_limits(limits), std::move(help), shown);
   keys_.back().limits = limits;
 }
 
-void Schema::real(std::string name, double& field, Limits limits, std::string help, Shown shown) {
+void Schema::real(std::string name, double& field, ValueLimits limits, std::string help, Shown shown) {
   real(std::move(name), std::vector{&field}, limits, std::move(help), shown);
 }
 
-void Schema::integer(std::string name, std::vector<int*> fields, Limits limits, std::string help,
+void Schema::integer(std::string name, std::vector<int*> fields, ValueLimits limits, std::string help,
                      Shown shown) {
   add_number(std::move(name), std::move(fields), limits, "whole number, " + describe_limits(limits),
              std::move(help), shown);
 }
 
-void Schema::integer(std::string name, int& field, Limits limits, std::string help, Shown shown) {
+void Schema::integer(std::string name, int& field, ValueLimits limits, std::string help, Shown shown) {
   integer(std::move(name), std::vector{&field}, limits, std::move(help), shown);
 }
 
-void Schema::integer(std::string name, std::uint64_t& field, Limits limits, std::string help, Shown shown) {
+void Schema::integer(std::string name, std::uint64_t& field, ValueLimits limits, std::string help,
+                     Shown shown) {
   add_number(std::move(name), std::vector{&field}, limits, "whole number, " + describe_limits(limits),
              std::move(help), shown);
 }
@@ -163,7 +164,7 @@ std::vector<std::string> Schema::close_keys(std::string_view name, std::size_t c
   return names;
 }
 
-std::optional<Limits> Schema::limits(std::string_view key) const {
+std::optional<ValueLimits> Schema::limits(std::string_view key) const {
   const Key* found = find(key);
   return found == nullptr ? std::nullopt : found->limits;
 }

@@ -15,7 +15,7 @@
 namespace waymark {
 
 /// The smallest and largest value that a key may take.
-struct Limits {
+struct ValueLimits {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
@@ -29,21 +29,21 @@ enum class Shown : std::uint8_t { kOnRequest, kAlways };
 ///
 ///     struct GateOptions { double probability = 0.999; };
 ///     void describe(Schema& schema, GateOptions& o) {
-///       schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true sightings that may
+///       schema.real("gate.probability", o.probability, {0.5, 1.0}, "part of the true observations that may
 ///       pass");
 ///     }
 class Schema {
  public:
-  void real(std::string name, double& field, Limits limits, std::string help,
+  void real(std::string name, double& field, ValueLimits limits, std::string help,
             Shown shown = Shown::kOnRequest);
   /// One key for fields of several structs that mean the same and have the same default.
-  void real(std::string name, std::vector<double*> fields, Limits limits, std::string help,
+  void real(std::string name, std::vector<double*> fields, ValueLimits limits, std::string help,
             Shown shown = Shown::kOnRequest);
-  void integer(std::string name, int& field, Limits limits, std::string help,
+  void integer(std::string name, int& field, ValueLimits limits, std::string help,
                Shown shown = Shown::kOnRequest);
-  void integer(std::string name, std::uint64_t& field, Limits limits, std::string help,
+  void integer(std::string name, std::uint64_t& field, ValueLimits limits, std::string help,
                Shown shown = Shown::kOnRequest);
-  void integer(std::string name, std::vector<int*> fields, Limits limits, std::string help,
+  void integer(std::string name, std::vector<int*> fields, ValueLimits limits, std::string help,
                Shown shown = Shown::kOnRequest);
   void boolean(std::string name, bool& field, std::string help, Shown shown = Shown::kOnRequest);
   /// One key for a choice that is made of several fields.
@@ -86,7 +86,7 @@ class Schema {
   [[nodiscard]] std::string value(std::string_view key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
   /// What a key that is a real number may be; nothing for any other.
-  [[nodiscard]] std::optional<Limits> limits(std::string_view key) const;
+  [[nodiscard]] std::optional<ValueLimits> limits(std::string_view key) const;
   /// The keys that a mistyped one may have meant, the likeliest first, at most `count` of them; may be none.
   [[nodiscard]] std::vector<std::string> close_keys(std::string_view name, std::size_t count) const;
 
@@ -98,14 +98,14 @@ class Schema {
     std::function<std::string()> get;
     std::function<bool(std::string_view)> set;  ///< false: not an allowed value
     Shown shown = Shown::kOnRequest;
-    std::optional<Limits> limits = std::nullopt;  ///< of a real number
+    std::optional<ValueLimits> limits = std::nullopt;  ///< of a real number
     std::string default_value = {};
     bool was_set = false;
   };
 
   void add(Key key);
   template <class Number>
-  void add_number(std::string name, std::vector<Number*> fields, Limits limits, std::string allowed,
+  void add_number(std::string name, std::vector<Number*> fields, ValueLimits limits, std::string allowed,
                   std::string help, Shown shown);
   void add_choice(std::string name, std::vector<std::string> names, std::string help, Shown shown,
                   std::function<std::size_t()> get, std::function<void(std::size_t)> set);

@@ -31,7 +31,7 @@ Result<void> read_car_steering(const MatFile& file, std::vector<Event>& events) 
   return {};
 }
 
-Observations sightings(const std::vector<RangeBearing>& reflectors) {
+Observations observations(const std::vector<RangeBearing>& reflectors) {
   Observations seen;
   for (const RangeBearing& reflector : reflectors) seen.push_back({std::nullopt, reflector, std::nullopt});
   return seen;
@@ -49,7 +49,7 @@ Result<void> read_scans(const MatFile& file, std::vector<Event>& events) {
   for (std::size_t i = 0; i < stamps->size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const auto reflectors = find_reflectors(ranges_m->row(row), intensities->row(row));
-    events.emplace_back((*stamps)[i], sightings(reflectors));
+    events.emplace_back((*stamps)[i], observations(reflectors));
   }
   return {};
 }

@@ -68,7 +68,7 @@ LandmarkId tube(Eigen::Index column) {
   return {LandmarkId::Family::kMarker, static_cast<std::int32_t>(column + 1)};
 }
 
-Observations sightings(const Columns& c, Eigen::Index row) {
+Observations observations(const Columns& c, Eigen::Index row) {
   Observations seen;
   for (Eigen::Index column = 0; column < kTubes; ++column)
     if (c.r(row, column) != 0.0)
@@ -83,7 +83,7 @@ std::vector<Event> events_of(const Columns& c) {
     events.emplace_back(stamp, Velocity{c.v(row, 0), c.om(row, 0)});
     if (c.true_valid(row, 0) != 0.0)
       events.emplace_back(stamp, Truth{c.x_true(row, 0), c.y_true(row, 0), c.th_true(row, 0)});
-    if (auto seen = sightings(c, row); !seen.empty()) events.emplace_back(stamp, std::move(seen));
+    if (auto seen = observations(c, row); !seen.empty()) events.emplace_back(stamp, std::move(seen));
   }
   return events;
 }

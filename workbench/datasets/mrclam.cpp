@@ -92,18 +92,18 @@ std::optional<EventContent> read_truth(TextTable& row, Tally&) {
   return Truth{row.number(1), row.number(2), row.number(3)};
 }
 
-EventStream::ReadRow read_sighting(Subjects subjects) {
+EventStream::ReadRow read_observation(Subjects subjects) {
   return [subjects = std::move(subjects)](TextTable& row, Tally& tally) -> std::optional<EventContent> {
     const int barcode = row.integer(1);
     const RangeBearing value{row.number(2), row.number(3)};
     if (value.range_m < 0.0) row.fail(fmt::format("range {} m; a range cannot be negative", value.range_m));
     const auto subject = subjects.find(barcode);
     if (subject == subjects.end()) {
-      tally.count(fmt::format("sightings skipped of barcode {}, which is in no table", barcode));
+      tally.count(fmt::format("observations skipped of barcode {}, which is in no table", barcode));
       return std::nullopt;
     }
     if (subject->second <= kLastRobotSubject) {
-      tally.count("sightings skipped of other robots");
+      tally.count("observations skipped of other robots");
       return std::nullopt;
     }
     return Observations{{landmark_id(subject->second), value, std::nullopt}};
@@ -155,7 +155,7 @@ Result<std::vector<EventStream>> open_streams(const fs::path& folder, int robot)
   if (auto done = add_truth(folder, robot, streams); !done) return done.error();
   if (auto done =
           add_stream(TextLines::open(robot_file(folder, robot, "Measurement.dat")),
-                     "stamp_s,barcode,range_m,bearing_rad", read_sighting(*std::move(subjects)), streams);
+                     "stamp_s,barcode,range_m,bearing_rad", read_observation(*std::move(subjects)), streams);
       !done)
     return done.error();
   return streams;

@@ -21,10 +21,10 @@ struct MrclamOptions {
 
 /// Opens one robot of a folder of the UTIAS Multi-Robot Cooperative Localization and Mapping dataset (Leung,
 /// Halpern, Barfoot, Liu 2011) as published. Velocity, Truth and range-bearing Observations; ids are subjects
-/// of the barcode family. Sightings of other robots and of barcodes that are in no table, and odometry that
-/// goes back in time, are skipped and counted in notes(). Where RobotN_Groundtruth.dat is missing, the truth
-/// is RobotN_Groundtruth_rounded.csv, whose stamps are rebuilt (rounded_stamps.hpp). The settings are those
-/// of configs/mrclam.yaml, one set for all robots.
+/// of the barcode family. Observations of other robots and of barcodes that are in no table, and odometry
+/// that goes back in time, are skipped and counted in notes(). Where RobotN_Groundtruth.dat is missing, the
+/// truth is RobotN_Groundtruth_rounded.csv, whose stamps are rebuilt (rounded_stamps.hpp). The settings are
+/// those of configs/mrclam.yaml, one set for all robots.
 [[nodiscard]] Result<std::unique_ptr<Source>> open_mrclam(const std::filesystem::path& folder,
                                                           const MrclamOptions& options = {});
 

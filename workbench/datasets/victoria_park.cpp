@@ -21,7 +21,7 @@ constexpr double kMillisecond_s = 1e-3;  // of the receiver; the rest of the log
 constexpr const char* kFixesFile = "aa3_gpsx.mat";
 
 /// The bearings of the detector count from the right.
-Observation sighting_of(const Eigen::VectorXd& detection) {
+Observation observation_of(const Eigen::VectorXd& detection) {
   return {std::nullopt, RangeBearing{detection(0), wrap_angle(detection(1) - 0.5 * kPi)}, std::nullopt};
 }
 
@@ -34,7 +34,7 @@ Result<void> read_trees(const MatFile& file, std::vector<Event>& events) {
   if (auto same = check_rows(file, "zt", std::ssize(*scans), stamps->size()); !same) return same;
   for (std::size_t i = 0; i < scans->size(); ++i) {
     Observations seen;
-    for (const auto& detection : (*scans)[i].colwise()) seen.push_back(sighting_of(detection));
+    for (const auto& detection : (*scans)[i].colwise()) seen.push_back(observation_of(detection));
     events.emplace_back((*stamps)[i], std::move(seen));
   }
   return {};

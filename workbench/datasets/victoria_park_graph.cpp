@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 class Mileage {
  public:
   void add(Stamp stamp, const Steering& steering) {
-    way_m_ += moved_m(stamp);
+    travelled_m_ += moved_m(stamp);
     held_ = {stamp, steering};
   }
-  void add_scan(Stamp stamp) { scans_.push_back({stamp, way_m_ + moved_m(stamp)}); }
+  void add_scan(Stamp stamp) { scans_.push_back({stamp, travelled_m_ + moved_m(stamp)}); }
 
   [[nodiscard]] bool empty() const { return scans_.empty(); }
 
@@ -37,8 +37,8 @@ class Mileage {
   [[nodiscard]] std::vector<Stamp> stamps_of(const std::vector<double>& gone_m) const {
     std::vector<Stamp> stamps;
     auto next = scans_.begin();
-    for (const double way_m : gone_m) {
-      next = std::ranges::lower_bound(next, scans_.end(), way_m, {}, &Scan::way_m);
+    for (const double travelled_m : gone_m) {
+      next = std::ranges::lower_bound(next, scans_.end(), travelled_m, {}, &Scan::travelled_m);
       if (next == scans_.end()) --next;
       stamps.push_back(next->stamp);
       if (std::next(next) != scans_.end()) ++next;
@@ -49,7 +49,7 @@ class Mileage {
  private:
   struct Scan {
     Stamp stamp;
-    double way_m;
+    double travelled_m;
   };
 
   [[nodiscard]] double moved_m(Stamp until) const {
@@ -61,7 +61,7 @@ class Mileage {
   }
 
   std::vector<Scan> scans_;
-  double way_m_ = 0.0;
+  double travelled_m_ = 0.0;
   std::optional<std::pair<Stamp, Steering>> held_;
 };
 
@@ -92,7 +92,7 @@ Result<std::vector<double>> read_numbers(std::string_view rest, const EdgeLine& 
 struct Graph {
   struct Pose {
     Pose2 T_odom_robot;
-    double way_m = 0.0;  ///< from the first
+    double travelled_m = 0.0;  ///< from the first
     Observations seen;
   };
   std::vector<Pose> poses{Pose{}};
@@ -105,7 +105,7 @@ struct Graph {
     if (!index_of_key.emplace(n[1], poses.size()).second) return false;
     const Pose& last = poses.back();
     const Pose2 moved{n[2], n[3], wrap_angle(n[4])};
-    poses.push_back({last.T_odom_robot * moved, last.way_m + moved.position().norm(), {}});
+    poses.push_back({last.T_odom_robot * moved, last.travelled_m + moved.position().norm(), {}});
     return true;
   }
 
@@ -174,7 +174,7 @@ Result<Log> read_log(const fs::path& path) {
 std::vector<Stamp> stamps_of(const Graph& graph, const Log& log) {
   constexpr double kScan_s = 0.2;
   std::vector<double> gone_m;
-  for (const auto& pose : graph.poses) gone_m.push_back(pose.way_m);
+  for (const auto& pose : graph.poses) gone_m.push_back(pose.travelled_m);
   if (!log.mileage.empty()) return log.mileage.stamps_of(gone_m);
   std::vector<Stamp> stamps;
   for (std::size_t i = 0; i < gone_m.size(); ++i)

@@ -15,15 +15,15 @@ template <int N>
 [[nodiscard]] std::optional<double> nees(const Eigen::Matrix<double, N, 1>& error,
                                          const Eigen::Matrix<double, N, N>& P) {
   using Vector = Eigen::Matrix<double, N, 1>;
-  constexpr double kLeastSigma = 1e-6;
-  constexpr double kLeastShare = 1e-9;
+  constexpr double kMinSigma = 1e-6;
+  constexpr double kMinShare = 1e-9;
   const Vector sigma = P.diagonal().cwiseSqrt();
-  if (!(sigma.array() >= kLeastSigma).all()) return std::nullopt;
+  if (!(sigma.array() >= kMinSigma).all()) return std::nullopt;
   const Vector scale = sigma.cwiseInverse();
   const Eigen::Matrix<double, N, N> correlation = scale.asDiagonal() * P * scale.asDiagonal();
   const Eigen::LLT<Eigen::Matrix<double, N, N>> llt(correlation);
   if (llt.info() != Eigen::Success) return std::nullopt;
-  if (!(llt.matrixLLT().diagonal().array().square() > kLeastShare).all()) return std::nullopt;
+  if (!(llt.matrixLLT().diagonal().array().square() > kMinShare).all()) return std::nullopt;
   const Vector scaled = scale.cwiseProduct(error);
   return llt.matrixL().solve(scaled).squaredNorm();
 }

@@ -37,16 +37,16 @@ std::optional<double> angle_from_path(std::span<const PosePair> pairs) {
 
 }  // namespace
 
-std::optional<Anchor> anchor_at_start(std::span<const PosePair> pairs) {
+std::optional<StartAlignment> anchor_at_start(std::span<const PosePair> pairs) {
   if (pairs.empty()) return std::nullopt;
   const PosePair& first = pairs.front();
   if (first.truth.theta_rad) {
-    return Anchor{onto_first_truth(first, *first.truth.theta_rad - first.estimate.theta_rad),
-                  AnchorHeading::kTruth};
+    return StartAlignment{onto_first_truth(first, *first.truth.theta_rad - first.estimate.theta_rad),
+                          AnchorHeading::kTruth};
   }
   const auto angle_rad = angle_from_path(pairs);
-  return Anchor{onto_first_truth(first, angle_rad.value_or(0.0)),
-                angle_rad ? AnchorHeading::kPath : AnchorHeading::kNone};
+  return StartAlignment{onto_first_truth(first, angle_rad.value_or(0.0)),
+                        angle_rad ? AnchorHeading::kPath : AnchorHeading::kNone};
 }
 
 std::optional<PathFit> fit_path(std::span<const PosePair> pairs) {

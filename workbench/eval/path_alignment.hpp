@@ -15,13 +15,13 @@ enum class AnchorHeading {
 };
 
 /// Puts an estimate into the frame of the truth by its start alone: the error of what follows shows in full.
-struct Anchor {
+struct StartAlignment {
   Pose2 T_truth_estimate;
   AnchorHeading heading = AnchorHeading::kNone;
 };
 
 /// The rigid motion that puts the first estimate onto the first truth; nothing without pairs.
-[[nodiscard]] std::optional<Anchor> anchor_at_start(std::span<const PosePair> pairs);
+[[nodiscard]] std::optional<StartAlignment> anchor_at_start(std::span<const PosePair> pairs);
 
 /// How an estimate's path lies on the true one as a whole: fitted on the path, and then used for the map too
 /// (a fit on landmarks would let a good map excuse a bad path, and the other way round).

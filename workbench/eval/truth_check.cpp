@@ -18,11 +18,11 @@ namespace {
 using Map = std::span<const LandmarkEstimate>;
 using Survey = std::span<const TrueLandmark>;
 
-constexpr std::size_t kMinSightings = 5;
+constexpr std::size_t kMinObservations = 5;
 constexpr std::size_t kMinCommon = 4;
 /// Below this a single landmark is not worth a word; an exchange is, from a smaller error on.
-constexpr double kLeastOffM = 0.25;
-constexpr double kLeastExchangeM = 0.1;
+constexpr double kMinOffM = 0.25;
+constexpr double kMinExchangeM = 0.1;
 constexpr double kOddSigmas = 5.0;
 /// What remains of a squared error that an exchange explains, at most.
 constexpr double kExchangedShare = 0.25;
@@ -83,7 +83,7 @@ std::vector<double> distances_m(const Common& common, const Places& places) {
 
 /// What an exchange of two landmarks must explain, and how far either may then still be from its new place.
 struct ExchangeLimits {
-  double least_gain_m2 = kLeastExchangeM * kLeastExchangeM;
+  double min_gain_m2 = kMinExchangeM * kMinExchangeM;
   double farthest_m = std::numeric_limits<double>::infinity();
 };
 
@@ -100,7 +100,7 @@ double exchange_gain(const Common& common, std::size_t i, std::size_t j, double 
 /// The partner of `i` whose exchange explains most.
 std::optional<std::size_t> best_partner(const Common& common, std::size_t i, const ExchangeLimits& limits) {
   std::optional<std::size_t> best;
-  double best_gain = limits.least_gain_m2;
+  double best_gain = limits.min_gain_m2;
   for (std::size_t j = 0; j < common.ids.size(); ++j) {
     const double gain = j == i ? 0.0 : exchange_gain(common, i, j, limits.farthest_m);
     if (gain <= best_gain) continue;
@@ -136,15 +136,14 @@ std::optional<std::size_t> place_of(const Common& common, std::size_t i) {
 std::vector<MapOddity> find_oddities(const Common& common) {
   if (common.ids.size() < kMinCommon) return {};
   const double sigma_m = agreeing_sigma_m(distances_m(common, find_exchanges(common, {})));
-  const double least_off_m = std::max(kLeastOffM, kOddSigmas * sigma_m);
+  const double min_off_m = std::max(kMinOffM, kOddSigmas * sigma_m);
   const double evidence_m2 = kExchangeEvidence * sigma_m * sigma_m;
-  Places places =
-      find_exchanges(common, {std::max(kLeastExchangeM * kLeastExchangeM, evidence_m2), least_off_m});
+  Places places = find_exchanges(common, {std::max(kMinExchangeM * kMinExchangeM, evidence_m2), min_off_m});
   std::vector<MapOddity> oddities;
   for (std::size_t i = 0; i < places.size(); ++i) {
     MapOddity oddity{.id = common.ids[i], .off_m = std::sqrt(squared_distance(common, i, i))};
     if (!places[i]) {
-      if (oddity.off_m <= least_off_m) continue;
+      if (oddity.off_m <= min_off_m) continue;
       places[i] = place_of(common, i);
     }
     if (places[i]) {
@@ -184,20 +183,21 @@ std::string describe_exchange(const MapOddity& a, const MapOddity& b) {
 
 }  // namespace
 
-std::vector<LandmarkEstimate> place_sightings(std::span<const Sighting> sightings, const TruthTrack& truth,
-                                              const Eigen::Vector2d& truth_sensor_m) {
+std::vector<LandmarkEstimate> place_observations(std::span<const PositionObservation> landmark_observations,
+                                                 const TruthTrack& truth,
+                                                 const Eigen::Vector2d& truth_sensor_m) {
   std::map<LandmarkId, Coordinates> places;
-  for (const Sighting& sighting : sightings) {
-    const auto at = truth.at(sighting.stamp);
+  for (const PositionObservation& observation : landmark_observations) {
+    const auto at = truth.at(observation.stamp);
     const auto T_world_sensor = at ? pose_of(*at) : std::nullopt;
     if (!T_world_sensor) continue;
-    const Eigen::Vector2d p = *T_world_sensor * Eigen::Vector2d(sighting.p_robot_m - truth_sensor_m);
-    places[sighting.id].x_m.push_back(p.x());
-    places[sighting.id].y_m.push_back(p.y());
+    const Eigen::Vector2d p = *T_world_sensor * Eigen::Vector2d(observation.p_robot_m - truth_sensor_m);
+    places[observation.id].x_m.push_back(p.x());
+    places[observation.id].y_m.push_back(p.y());
   }
   std::vector<LandmarkEstimate> map;
   for (auto& [id, place] : places) {
-    if (place.x_m.size() < kMinSightings) continue;
+    if (place.x_m.size() < kMinObservations) continue;
     const int count = static_cast<int>(place.x_m.size());
     LandmarkEstimate landmark{.id = id, .observations = count};
     landmark.position_m = {*median(std::move(place.x_m)), *median(std::move(place.y_m)), 0.0};

@@ -16,18 +16,18 @@
 namespace waymark::eval {
 
 /// One landmark seen from the robot.
-struct Sighting {
+struct PositionObservation {
   Stamp stamp;
   LandmarkId id;
   Eigen::Vector2d p_robot_m = Eigen::Vector2d::Zero();  ///< robot frame
 };
 
-/// Where the sightings say that each landmark is, in the frame of the truth: the median of its sightings,
-/// each placed by the true pose of its moment. Sightings without a true pose are left out, and landmarks with
-/// fewer than five sightings. `truth_sensor_m`: where on the robot the truth was measured. In order of id;
-/// covariances stay 0. O(n log n).
-[[nodiscard]] std::vector<LandmarkEstimate> place_sightings(
-    std::span<const Sighting> sightings, const TruthTrack& truth,
+/// Where the observations say that each landmark is, in the frame of the truth: the median of its
+/// observations, each placed by the true pose of its moment. Observations without a true pose are left out,
+/// and landmarks with fewer than five observations. `truth_sensor_m`: where on the robot the truth was
+/// measured. In order of id; covariances stay 0. O(n log n).
+[[nodiscard]] std::vector<LandmarkEstimate> place_observations(
+    std::span<const PositionObservation> landmark_observations, const TruthTrack& truth,
     const Eigen::Vector2d& truth_sensor_m = Eigen::Vector2d::Zero());
 
 /// A surveyed landmark that is not where it is seen.

@@ -86,7 +86,7 @@ fs::path image_path(const fs::path& folder, const TextTable& row) {
   return folder / log_format::kImageFolder / row.text(1);
 }
 
-/// A lost picture costs its frame and not the log; a repeated one must not count twice.
+/// A lost image costs its frame and not the log; a repeated one must not count twice.
 EventStream::ReadRow read_image_below(const fs::path& folder) {
   return [folder, last = std::optional<Stamp>()](TextTable& row,
                                                  Tally& tally) mutable -> std::optional<EventContent> {
@@ -219,7 +219,7 @@ struct Sighted {
   bool pixel = false;
 };
 
-Sighted look_at_sightings(const fs::path& file) {
+Sighted look_at_observations(const fs::path& file) {
   Sighted sighted;
   if (!fs::exists(file)) return sighted;
   auto table = TextTable::open(file, layout_of(log_format::kObservations));
@@ -231,9 +231,9 @@ Sighted look_at_sightings(const fs::path& file) {
   return sighted;
 }
 
-bool has_pictures(const fs::path& folder) { return fs::exists(folder / log_format::kImages.file); }
+bool has_images(const fs::path& folder) { return fs::exists(folder / log_format::kImages.file); }
 
-/// The first picture of the log that there is.
+/// The first image of the log that there is.
 std::optional<fs::path> first_image(const fs::path& folder) {
   auto table = TextTable::open(folder / log_format::kImages.file, layout_of(log_format::kImages));
   while (table && table->next())
@@ -296,13 +296,13 @@ bool is_log_folder(const fs::path& folder) {
 }
 
 Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
-  const Sighted sighted = look_at_sightings(folder / log_format::kObservations.file);
+  const Sighted sighted = look_at_observations(folder / log_format::kObservations.file);
   LogInfo info{.name = base_name(folder),
                .format = "log folder",
                .settings = {},
                .landmarks = {},
                .identities = sighted.named || !(sighted.polar || sighted.pixel),
-               .only_pixels = !sighted.polar && (sighted.pixel || has_pictures(folder)),
+               .only_pixels = !sighted.polar && (sighted.pixel || has_images(folder)),
                .truth_sensor_m = {}};
   if (auto done = read_camera(folder, info); !done) return done.error();
   if (auto done = read_info(folder, info); !done) return done.error();

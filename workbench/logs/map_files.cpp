@@ -47,7 +47,7 @@ Result<void> check_sizes(const MapState& map) {
     return {};
   return Error{
       fmt::format(
-          "a map of {} landmarks of dimension {} has {} sightings, {} coordinates and a covariance of "
+          "a map of {} landmarks of dimension {} has {} observations, {} coordinates and a covariance of "
           "{} x {}",
           count, map.landmark_dimension, map.observations.size(), map.landmarks.size(), map.covariance.rows(),
           map.covariance.cols()),
@@ -214,7 +214,7 @@ class MapReader {
       std::string_view rest = lines_.line();
       map.ids.push_back(take_id(rest));
       map.observations.push_back(take_integer(rest));
-      if (map.observations.back() < 0) fail("the number of sightings cannot be negative");
+      if (map.observations.back() < 0) fail("the number of observations cannot be negative");
       for (int axis = 0; axis < map.landmark_dimension; ++axis) coordinates.push_back(take_number(rest));
       expect_end_of_line(rest);
     }

@@ -35,7 +35,7 @@ struct LogInfo {
   /// below what the user says.
   std::vector<std::pair<std::string, std::string>> settings;
   std::vector<TrueLandmark> landmarks;
-  bool identities = true;    ///< some sighting says which landmark it is of
+  bool identities = true;    ///< some observation says which landmark it is of
   bool only_pixels = false;  ///< what it observes is pixels alone: given ones, or images of a known camera
   std::optional<Eigen::Vector2d>
       truth_sensor_m;                 ///< where on the robot the truth was measured; empty: its origin

@@ -7,21 +7,21 @@
 
 #include "workbench/logs/files.hpp"
 #include "workbench/logs/json_text.hpp"
+#include "workbench/report/image_text.hpp"
 #include "workbench/report/pages.hpp"
-#include "workbench/report/picture_text.hpp"
 #include "workbench/report/rounded.hpp"
 
 namespace waymark {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using calibrate::BoardView;
 using calibrate::CameraCalibration;
 using calibrate::Fate;
-using calibrate::View;
 
-constexpr std::size_t kMostPictures = 60;
+constexpr std::size_t kMaxImages = 60;
 
-/// As many digits as a picture shows.
+/// As many digits as an image shows.
 double in_thousandths(double px) { return std::round(1000.0 * px) / 1000.0; }
 
 Json intrinsics_json(const CameraCalibration& calibration) {
@@ -96,15 +96,15 @@ Json figures_json(const CameraCalibration& calibration) {
 /// Frames of a stream that were not kept are counted by the page, not listed.
 Json shown_views_json(const CameraCalibration& calibration) {
   Json rows = Json::array();
-  std::size_t pictures = 0;
+  std::size_t images = 0;
   for (const View& view : calibration.views) {
     const bool is_passed_over =
         !view.is_shown() && (view.fate == Fate::kAlike || view.fate == Fate::kNoBoard);
     if (is_passed_over) continue;
     Json row = view_json(view, calibration.board);
     row["residuals"] = corners_json(view);
-    if (view.is_shown() && pictures++ < kMostPictures) {
-      row["png"] = picture_text(view.small);
+    if (view.is_shown() && images++ < kMaxImages) {
+      row["png"] = image_text(view.small);
       row["size"] = {view.small.width_px() * view.reduction, view.small.height_px() * view.reduction};
     }
     rows.push_back(std::move(row));
@@ -127,7 +127,7 @@ std::string render_camera_report(const CameraReport& report) {
   data["version"] = WAYMARK_VERSION;
   data["command"] = report.command;
   data["has_scale"] = report.calibration.board.has_scale;
-  data["pictures"] = report.calibration.views.size();
+  data["images"] = report.calibration.views.size();
   data["projection"] = projection_json(report.calibration);
   data["views"] = shown_views_json(report.calibration);
   return fill_page(camera_page(), json_text(data));

@@ -16,12 +16,12 @@ struct CameraReport {
 };
 
 /// The page as one HTML file that needs nothing else: the verdict, the intrinsics with their uncertainty, the
-/// corners of all views over the picture, a table of views, and the errors drawn into the pictures.
+/// corners of all views over the image, a table of views, and the errors drawn into the images.
 [[nodiscard]] std::string render_camera_report(const CameraReport& report);
 
 [[nodiscard]] Result<void> write_camera_report(const CameraReport& report, const std::filesystem::path& path);
 
-/// The same without pictures and corners, for programs.
+/// The same without images and corners, for programs.
 [[nodiscard]] std::string camera_json_text(const calibrate::CameraCalibration& calibration);
 
 }  // namespace waymark

@@ -8,10 +8,10 @@
 namespace waymark {
 
 /// What was found about a robot in so many runs over a log, as a table for a person.
-[[nodiscard]] std::string findings_text(const std::vector<calibrate::Finding>& findings, int runs,
+[[nodiscard]] std::string findings_text(const std::vector<calibrate::CalibrationFinding>& findings, int runs,
                                         const std::string& input);
 
 /// The same as a JSON object: value, sigma, before and whether the log told, by key.
-[[nodiscard]] std::string findings_json(const std::vector<calibrate::Finding>& findings);
+[[nodiscard]] std::string findings_json(const std::vector<calibrate::CalibrationFinding>& findings);
 
 }  // namespace waymark

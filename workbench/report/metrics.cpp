@@ -108,7 +108,7 @@ Json smoothed_json(const SmoothedFigures& s) {
             {"iterations", s.iterations},
             {"converged", s.converged},
             {"poses", s.poses},
-            {"sightings", s.sightings}};
+            {"observations", s.observations}};
   json["calibration"] = Json::object();
   for (const auto& each : s.calibration) json["calibration"][each.key] = rounded(each.value);
   json["live"] = distance_json(s.live);
@@ -213,7 +213,7 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
           smoothed.iterations,
           smoothed.converged,
           smoothed.steps.size(),
-          smoothed.sightings,
+          smoothed.observations,
           smooth::calibrated_keys(smoothed.calibration, config),
           live,
           truth};
@@ -250,15 +250,15 @@ std::string to_text(const eval::Evaluation& e) {
 
 static std::string to_text(const std::vector<smooth::CalibratedKey>& calibration) {
   std::string text;
-  for (const auto& [key, value, sigma, is_untold] : calibration)
+  for (const auto& [key, value, sigma, is_unobservable] : calibration)
     text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}{}\n", key, value, sigma,
-                        is_untold ? "   (as assumed: the log says nothing of it)" : "");
+                        is_unobservable ? "   (as assumed: the log says nothing of it)" : "");
   return text;
 }
 
 static std::string to_text(const SmoothedFigures& s) {
-  std::string text = fmt::format("smoothed: {} poses and {} sightings in {:.2f} s{}\n", s.poses, s.sightings,
-                                 s.cpu_s, s.converged ? "" : ", not converged");
+  std::string text = fmt::format("smoothed: {} poses and {} observations in {:.2f} s{}\n", s.poses,
+                                 s.observations, s.cpu_s, s.converged ? "" : ", not converged");
   if (s.truth) {
     text += line("position RMSE, from start", s.truth->path.position_rmse_m, "m");
     text += line("position RMSE, aligned", s.truth->path.position_rmse_aligned_m, "m");

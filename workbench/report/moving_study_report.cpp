@@ -75,7 +75,7 @@ std::string to_json(const MovingStudy& study) {
 
 std::string render_report(const MovingStudy& study, const std::string& command) {
   Json json{{"title", "A sensor on a robot that moves"},
-            {"subtitle", fmt::format("From {} alone, in {} runs: what is left over of sightings when path "
+            {"subtitle", fmt::format("From {} alone, in {} runs: what is left over of observations when path "
                                      "and map are known by the whole log",
                                      study.input, study.runs)}};
   json["version"] = WAYMARK_VERSION;

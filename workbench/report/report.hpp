@@ -9,7 +9,7 @@
 #include "waymark/core/pose2.hpp"
 #include "waymark/core/result.hpp"
 
-#include "workbench/run/film_strip.hpp"
+#include "workbench/run/image_strip.hpp"
 
 namespace waymark {
 
@@ -85,10 +85,10 @@ struct ReportedBlock {
   std::optional<double> article_per_frame_us;  ///< published for the same block
 };
 
-/// Pictures of the run with what was looked for in them.
-struct FilmSeries {
+/// Images of the run with what was looked for in them.
+struct ImageStripSeries {
   std::vector<double> t_s;
-  std::vector<FilmFrame> frames;
+  std::vector<StripFrame> frames;
 };
 
 /// One run of a filter. Its path and landmarks are anchored at the true start pose where there is a truth.
@@ -105,7 +105,7 @@ struct RunData {
   InnovationSeries innovations;
   StepSeries steps;
   std::vector<ReportedBlock> blocks;
-  FilmSeries film;
+  ImageStripSeries image_strip;
   std::string metrics_json;  ///< the text of metrics.json
   std::vector<std::string> notes;
 };

@@ -7,9 +7,9 @@
 
 #include "workbench/logs/json_text.hpp"
 #include "workbench/report/decimate.hpp"
+#include "workbench/report/image_text.hpp"
 #include "workbench/report/nis_histogram.hpp"
 #include "workbench/report/pages.hpp"
-#include "workbench/report/picture_text.hpp"
 #include "workbench/report/rounded.hpp"
 
 namespace waymark {
@@ -134,15 +134,15 @@ Json to_json(const ReportedBlock& block) {
   return json;
 }
 
-const char* name_of(vision::Look::Result result, bool refused) {
+const char* name_of(vision::SearchRecord::Result result, bool refused) {
   switch (result) {
-    case vision::Look::Result::kFound:
+    case vision::SearchRecord::Result::kFound:
       return refused ? "rejected" : "found";
-    case vision::Look::Result::kMissed:
+    case vision::SearchRecord::Result::kMissed:
       return "missed";
-    case vision::Look::Result::kNew:
+    case vision::SearchRecord::Result::kNew:
       return "new";
-    case vision::Look::Result::kNotTried:
+    case vision::SearchRecord::Result::kNotTried:
       break;
   }
   return "not tried";
@@ -150,7 +150,7 @@ const char* name_of(vision::Look::Result result, bool refused) {
 
 double in_hundredths(double px) { return std::round(100.0 * px) / 100.0; }
 
-Json to_json(const vision::Look& look, const FilmFrame& frame) {
+Json to_json(const vision::SearchRecord& look, const StripFrame& frame) {
   const bool refused = std::ranges::find(frame.refused, look.id) != frame.refused.end();
   return {{"id", look.id.number},
           {"candidate", look.candidate},
@@ -164,17 +164,18 @@ Json to_json(const vision::Look& look, const FilmFrame& frame) {
           {"syy", rounded(look.S(1, 1))}};
 }
 
-Json to_json(const FilmSeries& film) {
+Json to_json(const ImageStripSeries& image_strip) {
   Json::array_t frames;
-  for (std::size_t i = 0; i < film.frames.size(); ++i) {
-    const FilmFrame& frame = film.frames[i];
-    Json::array_t looks;
-    for (const vision::Look& look : frame.looks) looks.push_back(to_json(look, frame));
-    frames.push_back({{"t", rounded_stamp(film.t_s[i])},
-                      {"width", frame.picture.width_px()},
-                      {"height", frame.picture.height_px()},
-                      {"png", picture_text(frame.picture)},
-                      {"looks", std::move(looks)}});
+  for (std::size_t i = 0; i < image_strip.frames.size(); ++i) {
+    const StripFrame& frame = image_strip.frames[i];
+    Json::array_t search_records;
+    for (const vision::SearchRecord& look : frame.search_records)
+      search_records.push_back(to_json(look, frame));
+    frames.push_back({{"t", rounded_stamp(image_strip.t_s[i])},
+                      {"width", frame.image.width_px()},
+                      {"height", frame.image.height_px()},
+                      {"png", image_text(frame.image)},
+                      {"search_records", std::move(search_records)}});
   }
   return frames;
 }
@@ -204,7 +205,7 @@ Json to_json(const RunData& run) {
                {"innovations", to_json(run.innovations)},
                {"steps", to_json(run.steps)},
                {"blocks", list(run.blocks)},
-               {"film", to_json(run.film)},
+               {"image_strip", to_json(run.image_strip)},
                {"metrics", metrics_of(run)},
                {"notes", run.notes}};
   if (!run.smoothed.t_s.empty()) json["smoothed"] = to_json(run.smoothed);

@@ -131,10 +131,10 @@ std::vector<ReportedBlock> blocks_of(const Metrics& metrics, const Config& confi
   return blocks;
 }
 
-FilmSeries film_of(const Recording& recording, const Clock& clock) {
-  FilmSeries film{{}, recording.film.frames()};
-  for (const FilmFrame& frame : film.frames) film.t_s.push_back(clock(frame.stamp));
-  return film;
+ImageStripSeries image_strip_of(const Recording& recording, const Clock& clock) {
+  ImageStripSeries image_strip{{}, recording.image_strip.frames()};
+  for (const StripFrame& frame : image_strip.frames) image_strip.t_s.push_back(clock(frame.stamp));
+  return image_strip;
 }
 
 /// What moves the anchored estimate to its best fit.
@@ -176,7 +176,7 @@ void add_run_to(ReportData& report, const RunResult& result, const std::string& 
   run.innovations = innovations_of(result.recording, clock);
   run.steps = steps_of(result.recording, clock);
   run.blocks = blocks_of(result.metrics, result.config);
-  run.film = film_of(result.recording, clock);
+  run.image_strip = image_strip_of(result.recording, clock);
   run.metrics_json = to_json(result.metrics);
   run.notes = result.recording.notes;
   if (result.evaluation)

@@ -28,8 +28,8 @@ std::string line(const char* what, const Value& value, double unit = 1.0) {
 
 std::string row(const PlaceStudy& each) {
   return fmt::format("  {:>9.3f}{:>13.2f}{:>8}{:>9.0f} %{:>12.4f}{:>10.4f}{:>14.3f}{:>10.3f}\n",
-                     each.place.range_m, to_degrees(each.place.bearing_rad), each.sightings,
-                     100.0 * each.sightings / std::max(1, each.scans), each.range_error_m,
+                     each.place.range_m, to_degrees(each.place.bearing_rad), each.observations,
+                     100.0 * each.observations / std::max(1, each.scans), each.range_error_m,
                      std::sqrt(each.covariance(0, 0)), to_degrees(each.bearing_error_rad),
                      to_degrees(std::sqrt(each.covariance(1, 1))));
 }
@@ -44,7 +44,7 @@ Json json_of(const PlaceStudy& each) {
           {"range_m", rounded(each.place.range_m)},
           {"bearing_deg", rounded(to_degrees(each.place.bearing_rad))},
           {"scans", each.scans},
-          {"sightings", each.sightings},
+          {"observations", each.observations},
           {"range_error_m", rounded(each.range_error_m)},
           {"bearing_error_deg", rounded(to_degrees(each.bearing_error_rad))},
           {"range_sigma_m", rounded(std::sqrt(R(0, 0)))},
@@ -79,10 +79,10 @@ Json findings(const StaticStudy& study) {
 std::vector<calibrate::NoiseBin> bins(const StaticStudy& study, bool ranges) {
   std::vector<calibrate::NoiseBin> list;
   for (const PlaceStudy& each : study.places) {
-    if (each.sightings < 2) continue;
+    if (each.observations < 2) continue;
     const Eigen::Index i = ranges ? 0 : 1;
     list.push_back({ranges ? each.place.range_m : each.place.bearing_rad,
-                    each.sightings,
+                    each.observations,
                     ranges ? each.range_error_m : each.bearing_error_rad,
                     {std::sqrt(each.covariance(i, i)), 0.0}});
   }

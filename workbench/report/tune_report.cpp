@@ -40,7 +40,7 @@ Json figures_json(const study::Figures& figures) {
 Json result_json(const study::TuneResult& result) {
   Json json{{"by", result.by == study::TuneBy::kLikelihood ? "likelihood" : "rmse"},
             {"score", study::score_name(result.by)},
-            {"sightings", result.sightings},
+            {"observations", result.observations},
             {"runs", result.runs},
             {"stopped", result.stopped},
             {"before", rounded(result.before)},

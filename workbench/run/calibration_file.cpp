@@ -14,7 +14,7 @@ std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate, 
   const auto add = [&](const char* key, CalibrationIndex index, double before, double unit) {
     if (!estimate.is_estimated(index)) return;
     keys.push_back({key, before + unit * estimate.mean[index], std::abs(unit) * estimate.sigmas[index],
-                    estimate.is_untold(index)});
+                    estimate.is_unobservable(index)});
   };
   const OdometryOptions& odometry = config.odometry;
   const LandmarkSensor& sensor = config.sensor;
@@ -36,10 +36,10 @@ std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate, 
 
 std::string calibration_yaml(std::span<const CalibratedKey> keys) {
   std::string yaml = "# What the log says about the sensors; for --config.\n";
-  for (const auto& [key, value, sigma, is_untold] : keys)
+  for (const auto& [key, value, sigma, is_unobservable] : keys)
     yaml +=
         fmt::format("{}: {:.6g}{}{}\n", key, value, sigma > 0.0 ? fmt::format("  # +- {:.2g}", sigma) : "",
-                    is_untold ? ", as assumed: the log says nothing of it" : "");
+                    is_unobservable ? ", as assumed: the log says nothing of it" : "");
   return yaml;
 }
 

@@ -14,8 +14,8 @@ namespace waymark::smooth {
 struct CalibratedKey {
   std::string key;
   double value = 0.0;
-  double sigma = 0.0;      ///< 0: goes with the others
-  bool is_untold = false;  ///< the value is what was assumed
+  double sigma = 0.0;            ///< 0: goes with the others
+  bool is_unobservable = false;  ///< the value is what was assumed
 };
 
 /// Those that have a key and whose certainty is known.

@@ -36,7 +36,7 @@ Result<void> apply(Schema& schema, const LogInfo& log) {
   return {};
 }
 
-/// What a filter does best where sightings have no identity.
+/// What a filter does best where observations have no identity.
 const char* without_identities(FilterKind filter) { return filter == FilterKind::kEkf ? "jcbb" : "ml"; }
 
 bool sets_mount(const Schema& schema) {
@@ -92,11 +92,10 @@ void describe_shared(Schema& schema, Config& config) {
               {0.0, 100.0},
               "the same of what the odometry turns too little while the robot moves, degrees per second; 0: "
               "nothing");
-  schema.real("camera.vibration_deg", {&config.pixel.vibration_deg, &config.markers.mount_sigma_deg},
-              {0.0, 10.0},
-              "standard deviation of how the camera shakes on its robot, anew in every picture, degrees");
-  schema.integer("pixel.most_candidates",
-                 {&config.pixel.most_candidates, &config.tracker.new_corners.most_candidates}, {1, 100},
+  schema.real("camera.jitter_deg", {&config.pixel.jitter_deg, &config.markers.jitter_deg}, {0.0, 10.0},
+              "standard deviation of how the camera shakes on its robot, anew in every image, degrees");
+  schema.integer("pixel.max_candidates",
+                 {&config.pixel.max_candidates, &config.tracker.new_corners.max_candidates}, {1, 100},
                  "points whose depth is being found out at once");
   schema.boolean(
       "pixel.article", [&config] { return uses_article_methods(config); },

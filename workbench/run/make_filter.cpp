@@ -33,7 +33,7 @@ EkfOptions ekf_options(const Config& config, const std::optional<MapState>& star
   options.gate = config.gate;
   if (config.associate != Association::kKnown)
     options.unknown = UnknownAssociation{config.associate == Association::kJcbb, config.association};
-  if (!tells_size(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
+  if (!observes_scale(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
   if (start) options.loaded = static_cast<int>(start->ids.size());
   return options;
 }
@@ -69,7 +69,7 @@ Result<FilterSystem> make_pixel_ekf(const Config& config, const std::optional<Ma
 Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState>& start) {
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
-  if (config.associate != Association::kKnown && !tells_place(config.observe))
+  if (config.associate != Association::kKnown && !observes_position(config.observe))
     return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
   if (config.pixel.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
@@ -113,7 +113,7 @@ Result<std::optional<MapState>> read_start_map(const Config& config) {
   if (config.map.localize && config.map.file.empty())
     return Error{"map.localize: needs a saved map: --map FILE (config key map.file)"};
   if (config.map.file.empty()) return std::optional<MapState>{};
-  if (config.filter != FilterKind::kEkf || (!pixels && !tells_place(config.observe)))
+  if (config.filter != FilterKind::kEkf || (!pixels && !observes_position(config.observe)))
     return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing, markers or pixel"};
   if (config.map.localize && pixels)
     return Error{

@@ -12,7 +12,7 @@
 
 namespace waymark {
 
-/// A filter, and what looks into pictures for it, null where nothing does.
+/// A filter, and what looks into images for it, null where nothing does.
 struct FilterSystem {
   std::unique_ptr<Filter> filter;
   std::unique_ptr<FrontEnd> front_end;  ///< last: it works on the filter
@@ -25,7 +25,7 @@ struct FilterSystem {
 [[nodiscard]] Result<FilterSystem> make_filter_system(const Config& config,
                                                       const std::optional<MapState>& start);
 
-/// What finds markers in pictures where they are asked for, or why it cannot; null where they are not.
+/// What finds markers in images where they are asked for, or why it cannot; null where they are not.
 [[nodiscard]] Result<std::unique_ptr<FrontEnd>> make_marker_front_end(const Config& config);
 
 /// The filter alone, for observations that come as such; it reads the map that the config starts from.

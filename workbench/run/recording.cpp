@@ -24,8 +24,8 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
   note(counts.other_odometry, "odometry events ignored: of a second kind or device");
   note(counts.other_robots, "events ignored: of another robot than the first");
   note(counts.robots_seen, "observations dropped: of other robots, which are no landmarks");
-  note(counts.misfits, "pictures skipped: another size than camera.width_px x camera.height_px");
-  note(counts.repeats, "pictures skipped: the stamp or every pixel of the one before");
+  note(counts.misfits, "images skipped: another size than camera.width_px x camera.height_px");
+  note(counts.repeats, "images skipped: the stamp or every pixel of the one before");
   note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
   return lines;
 }
@@ -43,9 +43,9 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   return lines;
 }
 
-std::vector<std::string> describe_untold(const Config& config) {
+std::vector<std::string> describe_unobservable(const Config& config) {
   if (!config.ekf.odometry.estimate || config.filter != FilterKind::kEkf ||
-      tells_size(config.observe, config.sensor.errors))
+      observes_scale(config.observe, config.sensor.errors))
     return {};
   return {
       "motion.speed_scale was not estimated: without ranges of known scale nothing tells a large world from "
@@ -58,7 +58,7 @@ void keep_for_smoothing(Recording& recording, const Step& step) {
   if (step.correction == nullptr || step.correction->innovations.size() != step.observations.size()) return;
   for (std::size_t i = 0; i < step.observations.size(); ++i) {
     const Innovation& innovation = step.correction->innovations[i];
-    recording.sightings.push_back(
+    recording.observations.push_back(
         {recording.trajectory.size() - 1, innovation.landmark, innovation.outcome, step.observations[i]});
   }
 }
@@ -68,8 +68,9 @@ void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
-  if (step.picture != nullptr && front_end != nullptr)
-    recording.film.add(step.stamp, *step.picture, front_end->looks(), step.correction->innovations);
+  if (step.image != nullptr && front_end != nullptr)
+    recording.image_strip.add(step.stamp, *step.image, front_end->search_records(),
+                              step.correction->innovations);
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)
     recording.innovations.push_back({step.stamp, innovation});
@@ -95,9 +96,7 @@ std::optional<Error> read_all(Source& source, const TimeSpan& span,
   }
 }
 
-bool looks_into_pictures(Observe observe) {
-  return observe == Observe::kPixel || observe == Observe::kMarkers;
-}
+bool looks_into_images(Observe observe) { return observe == Observe::kPixel || observe == Observe::kMarkers; }
 
 bool shows_pixels(const EventContent& content) {
   const auto* observations = std::get_if<Observations>(&content);
@@ -111,7 +110,7 @@ bool shows_pixels(const EventContent& content) {
 Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
   if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
-  if (config.camera_known || !looks_into_pictures(config.observe) || !shows_pixels(event.content)) return {};
+  if (config.camera_known || !looks_into_images(config.observe) || !shows_pixels(event.content)) return {};
   return Error{
       "camera.fu_px: nobody says what the camera is like: put its camera_info file, as `waymark calibrate "
       "camera PHOTOS` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
@@ -134,13 +133,13 @@ Result<void> route(Event event, const Config& config, Recording& recording, Pipe
 
 /// Where every observation lacks what the mode asks for, dead reckoning would pass for a result.
 std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe) {
-  if (observe == Observe::kMarkers && recording.counts.pictures == 0)
+  if (observe == Observe::kMarkers && recording.counts.images == 0)
     return Error{
-        "observe: this log has no picture in which markers could be found; `waymark check` lists what it "
+        "observe: this log has no image in which markers could be found; `waymark check` lists what it "
         "has"};
-  if (observe == Observe::kPixel && recording.counts.pictures == 0 && recording.innovations.empty())
+  if (observe == Observe::kPixel && recording.counts.images == 0 && recording.innovations.empty())
     return Error{
-        "observe: this log has no picture and no pixel observation that can be used; `waymark check` lists "
+        "observe: this log has no image and no pixel observation that can be used; `waymark check` lists "
         "what it has"};
   if (recording.counts.wrong_kind == 0 || recording.counts.unusable > 0 || !recording.innovations.empty())
     return std::nullopt;
@@ -155,7 +154,7 @@ std::optional<Error> find_unknown_pose(const Filter& filter) {
       "map: the robot was not found in it up to the end: too few of its landmarks were seen; three will do"};
 }
 
-void finish_pictures(Recording& recording, const Config& config, const FrontEnd& front_end) {
+void finish_images(Recording& recording, const Config& config, const FrontEnd& front_end) {
   recording.patches = front_end.patches();
   recording.tracker = front_end.tracker_counts();
   if (config.observe == Observe::kPixel)
@@ -165,7 +164,7 @@ void finish_pictures(Recording& recording, const Config& config, const FrontEnd&
   std::ranges::move(front_end.notes(innovations), std::back_inserter(recording.notes));
 }
 
-/// Those of the filter and of what looks into pictures for it, by their names.
+/// Those of the filter and of what looks into images for it, by their names.
 std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const FrontEnd* front_end) {
   const auto of_filter = filter.blocks().rows();
   std::vector<FunctionBlocks::Row> rows(of_filter.begin(), of_filter.end());
@@ -207,9 +206,9 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.blocks = blocks_of(*recording.filter, front_end);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();
-  if (front_end != nullptr) finish_pictures(recording, config, *front_end);
+  if (front_end != nullptr) finish_images(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
-  std::ranges::move(describe_untold(config), std::back_inserter(recording.notes));
+  std::ranges::move(describe_unobservable(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
   return recording;
 }

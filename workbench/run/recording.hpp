@@ -14,7 +14,7 @@
 #include "waymark/vision/tracker_counts.hpp"
 
 #include "workbench/run/config.hpp"
-#include "workbench/run/film_strip.hpp"
+#include "workbench/run/image_strip.hpp"
 
 namespace waymark {
 
@@ -30,7 +30,7 @@ struct Recording {
   };
 
   /// An observation as the filter got it, with the landmark that it was taken for.
-  struct Sighting {
+  struct ObservationRecord {
     std::size_t step;  ///< index in `trajectory`
     LandmarkId landmark;
     Outcome outcome;
@@ -42,14 +42,14 @@ struct Recording {
   std::vector<std::pair<Stamp, Truth>> truth;
   std::vector<TimedInnovation> innovations;
   std::vector<TimedCost> steps;
-  std::vector<Motion> motions;      ///< to each point of the trajectory; kept where smooth.run is set,
-  std::vector<Sighting> sightings;  ///< as are these
-  std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into pictures for it
-  FilmStrip film;
+  std::vector<Motion> motions;  ///< to each point of the trajectory; kept where smooth.run is set,
+  std::vector<ObservationRecord> landmark_observations;  ///< as are these
+  std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into images for it
+  ImageStrip image_strip;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;
   std::optional<OdometryKind> odometry;  ///< what it is told in, if there is any
-  vision::TrackerCounts tracker;         ///< of what looks into pictures
+  vision::TrackerCounts tracker;         ///< of what looks into images
   std::vector<std::string> notes;        ///< what was skipped or odd, one line each
   std::vector<LandmarkPatch> patches;    ///< what landmarks and candidates look like at the end
   Duration wall{0};

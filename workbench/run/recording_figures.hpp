@@ -7,7 +7,7 @@
 
 namespace waymark {
 
-/// CPU time of the thread in steps that corrected: prediction, what looks into pictures, correction; us.
+/// CPU time of the thread in steps that corrected: prediction, what looks into images, correction; us.
 struct StepTimes {
   double mean_us = 0.0;
   double p50_us = 0.0;

@@ -11,10 +11,10 @@
 namespace waymark::smooth {
 namespace {
 
-/// Takes the steps of the odometry together to legs between the poses at which something was seen.
-class LegBuilder {
+/// Takes the steps of the odometry together to intervals between the poses at which something was seen.
+class IntervalBuilder {
  public:
-  LegBuilder(const Recording& recording, const Config& config, const Before& before, RunGraph& run)
+  IntervalBuilder(const Recording& recording, const Config& config, const Before& before, RunGraph& run)
       : recording_(recording), config_(config), before_(before), run_(run) {
     run_.steps.push_back(0);
     run_.start.poses.push_back(recording.trajectory.front().pose);
@@ -25,7 +25,7 @@ class LegBuilder {
     const Motion& motion = recording_.motions[step];
     if (is_still(motion)) return;
     const Duration dt = recording_.trajectory[step].stamp - recording_.trajectory[step - 1].stamp;
-    leg_.steps.push_back({motion.increment, to_seconds(dt)});
+    interval_.steps.push_back({motion.increment, to_seconds(dt)});
     motion_ = compose(motion_, motion);
     slip_ = compose(slip_, {motion.increment, slip_of(motion.increment)});
   }
@@ -33,7 +33,7 @@ class LegBuilder {
   /// The pose at the present step: a new one if the robot moved since the last; nothing if it did, and not
   /// far enough, or if it stands and what it sees would only be the last error once more.
   [[nodiscard]] std::optional<int> pose_at(std::size_t step) {
-    const bool moved = !leg_.steps.empty();
+    const bool moved = !interval_.steps.empty();
     if (moved && !is_far(step)) return std::nullopt;
     if (moved) add_pose(step);
     if (!seen_at_) seen_at_ = step;
@@ -43,20 +43,20 @@ class LegBuilder {
 
  private:
   [[nodiscard]] bool leaves_out() const {
-    return config_.smooth.least_leg_m > 0.0 || config_.smooth.least_leg_deg > 0.0;
+    return config_.smooth.keyframe_distance_m > 0.0 || config_.smooth.keyframe_turn_deg > 0.0;
   }
 
   [[nodiscard]] bool is_far(std::size_t step) const {
     if (!before_.steps.empty()) return std::ranges::binary_search(before_.steps, step);
-    return motion_.increment.position().norm() >= config_.smooth.least_leg_m ||
-           std::abs(motion_.increment.theta_rad) >= to_radians(config_.smooth.least_leg_deg);
+    return motion_.increment.position().norm() >= config_.smooth.keyframe_distance_m ||
+           std::abs(motion_.increment.theta_rad) >= to_radians(config_.smooth.keyframe_turn_deg);
   }
 
   void add_pose(std::size_t step) {
     const auto larger = before_.odometry_noise.asDiagonal();
-    leg_.covariance = larger * motion_.covariance * larger;
-    leg_.measured_part = measured_part();
-    run_.graph.legs.push_back(std::exchange(leg_, {}));
+    interval_.covariance = larger * motion_.covariance * larger;
+    interval_.measured_part = measured_part();
+    run_.graph.intervals.push_back(std::exchange(interval_, {}));
     motion_ = slip_ = {};
     seen_at_.reset();
     run_.steps.push_back(step);
@@ -74,7 +74,7 @@ class LegBuilder {
     const bool knows_wheels =
         recording_.odometry == OdometryKind::kWheels || recording_.odometry == OdometryKind::kSteering;
     if (!knows_wheels) return Eigen::Vector3d::Ones();
-    constexpr double kLeast = 1e-20;  // a leg that is exact in some direction has no part to speak of
+    constexpr double kLeast = 1e-20;  // an interval that is exact in some direction has no part to speak of
     const Eigen::Array3d all = motion_.covariance.diagonal().array() + kLeast;
     return (1.0 - slip_.covariance.diagonal().array() / all).max(0.0);
   }
@@ -83,7 +83,7 @@ class LegBuilder {
   const Config& config_;
   const Before& before_;
   RunGraph& run_;
-  Leg leg_;
+  Interval interval_;
   std::optional<std::size_t> seen_at_;  // step at which the last pose saw something
   Motion motion_;
   Motion slip_;  // what the robot does beside what is measured
@@ -93,12 +93,13 @@ bool has_landmark(Outcome outcome) {
   return outcome == Outcome::kMatched || outcome == Outcome::kAdded || outcome == Outcome::kGated;
 }
 
-/// Where a sighting puts its landmark, by the filter's pose; nothing where it has one number.
-std::optional<Eigen::Vector2d> place(const Recording::Sighting& sighting, const Recording& recording,
-                                     const Pose2& T_robot_sensor) {
-  const auto* z = std::get_if<RangeBearing>(&sighting.observation.value);
+/// Where an observation puts its landmark, by the filter's pose; nothing where it has one number.
+std::optional<Eigen::Vector2d> place(const Recording::ObservationRecord& landmark_observation,
+                                     const Recording& recording, const Pose2& T_robot_sensor) {
+  const auto* z = std::get_if<RangeBearing>(&landmark_observation.observation.value);
   if (z == nullptr) return std::nullopt;
-  return RangeBearingModel::locate(recording.trajectory[sighting.step].pose, T_robot_sensor, *z).p_world;
+  return RangeBearingModel::locate(recording.trajectory[landmark_observation.step].pose, T_robot_sensor, *z)
+      .p_world;
 }
 
 void add_landmark(LandmarkId id, const Eigen::Vector2d& p_world, RunGraph& run) {
@@ -117,13 +118,14 @@ std::map<LandmarkId, int> add_landmarks(const Recording& recording, RunGraph& ru
   std::map<LandmarkId, int> index;
   for (const LandmarkId id : run.ids) index.emplace(id, static_cast<int>(index.size()));
   std::map<LandmarkId, int> seen;
-  for (const auto& sighting : recording.sightings) {
-    if (!has_landmark(sighting.outcome) || sighting.landmark == nobody || index.contains(sighting.landmark))
+  for (const auto& landmark_observation : recording.observations) {
+    if (!has_landmark(landmark_observation.outcome) || landmark_observation.landmark == nobody ||
+        index.contains(landmark_observation.landmark))
       continue;
-    const auto p_world = place(sighting, recording, run.graph.T_robot_sensor);
-    if (!p_world || ++seen[sighting.landmark] < kOften) continue;
-    index.emplace(sighting.landmark, static_cast<int>(run.ids.size()));
-    add_landmark(sighting.landmark, *p_world, run);
+    const auto p_world = place(landmark_observation, recording, run.graph.T_robot_sensor);
+    if (!p_world || ++seen[landmark_observation.landmark] < kOften) continue;
+    index.emplace(landmark_observation.landmark, static_cast<int>(run.ids.size()));
+    add_landmark(landmark_observation.landmark, *p_world, run);
   }
   return index;
 }
@@ -145,11 +147,11 @@ Eigen::Vector3d velocity_at(const Recording& recording, std::size_t step) {
   return velocity / dt_s;
 }
 
-/// What sightings of one landmark have in common is not estimated here and counts as noise.
+/// What observations of one landmark have in common is not estimated here and counts as noise.
 Eigen::Matrix2d white_covariance(const Observation& observation, const LandmarkSensor& sensor) {
-  LandmarkSensor lasting = sensor;
-  lasting.errors.shared_range_sigma_ratio = lasting.errors.shared_bearing_sigma_deg = 0.0;
-  return *observation.covariance + noise_covariance(with_white_errors(lasting), observation.value) -
+  LandmarkSensor bias = sensor;
+  bias.errors.shared_range_sigma_ratio = bias.errors.shared_bearing_sigma_deg = 0.0;
+  return *observation.covariance + noise_covariance(with_white_errors(bias), observation.value) -
          noise_covariance(sensor, observation.value);
 }
 
@@ -227,19 +229,20 @@ RunGraph graph_of(const Recording& recording, const Config& config, const Before
   run.graph.calibration_sigmas = calibration_sigmas(config.smooth, config.sensor.errors, config.observe);
   const bool estimates_delay = run.graph.calibration_sigmas[kDelay] > 0.0;
   const std::map<LandmarkId, int> index = add_landmarks(recording, run);
-  LegBuilder legs(recording, config, before, run);
-  auto sighting = recording.sightings.begin();
+  IntervalBuilder intervals(recording, config, before, run);
+  auto landmark_observation = recording.observations.begin();
   for (std::size_t step = 0; step < recording.trajectory.size(); ++step) {
-    if (step > 0) legs.advance(step);
-    for (; sighting != recording.sightings.end() && sighting->step == step; ++sighting) {
-      const auto landmark = index.find(sighting->landmark);
-      if (landmark == index.end() || !has_landmark(sighting->outcome)) continue;
-      const auto pose = legs.pose_at(step);
+    if (step > 0) intervals.advance(step);
+    for (; landmark_observation != recording.observations.end() && landmark_observation->step == step;
+         ++landmark_observation) {
+      const auto landmark = index.find(landmark_observation->landmark);
+      if (landmark == index.end() || !has_landmark(landmark_observation->outcome)) continue;
+      const auto pose = intervals.pose_at(step);
       if (!pose) continue;
       ++run.observations[static_cast<std::size_t>(landmark->second)];
-      run.graph.sightings.push_back(
-          {*pose, landmark->second, sighting->observation.value,
-           white_covariance(sighting->observation, config.sensor),
+      run.graph.observations.push_back(
+          {*pose, landmark->second, landmark_observation->observation.value,
+           white_covariance(landmark_observation->observation, config.sensor),
            estimates_delay ? velocity_at(recording, step) : Eigen::Vector3d::Zero()});
     }
   }
@@ -254,7 +257,7 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   RunGraph run = graph_of(recording, config, before);
   SolveOptions options;
   options.robust_dof = config.smooth.robust_dof;
-  options.most_iterations = config.smooth.most_iterations;
+  options.max_iterations = config.smooth.max_iterations;
   const Solution solution = solve(run.graph, run.start, options);
   Smoothed smoothed;
   smoothed.trajectory = Bender(recording, run, solution).path();
@@ -265,10 +268,10 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   smoothed.iterations = solution.iterations;
   smoothed.converged = solution.converged;
   smoothed.steps = std::move(run.steps);
-  smoothed.sightings = run.graph.sightings.size();
-  smoothed.leg_remainders = solution.leg_remainders;
+  smoothed.observations = run.graph.observations.size();
+  smoothed.interval_remainders = solution.interval_remainders;
   for (std::size_t i = 0; i < solution.remainders.size(); ++i)
-    smoothed.remainders.push_back({run.graph.sightings[i].value, solution.remainders[i]});
+    smoothed.remainders.push_back({run.graph.observations[i].value, solution.remainders[i]});
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
 }

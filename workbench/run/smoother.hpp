@@ -12,8 +12,8 @@
 
 namespace waymark::smooth {
 
-/// A sighting of a landmark of the map, and what is left over of it.
-struct SmoothedSighting {
+/// An observation of a landmark of the map, and what is left over of it.
+struct SmoothedObservation {
   Measurement measured;
   Remainder remainder;
 };
@@ -27,14 +27,14 @@ struct Smoothed {
   int iterations = 0;
   bool converged = false;
   std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
-  std::size_t sightings = 0;       ///< of landmarks of the map
-  std::vector<SmoothedSighting> remainders;  ///< of these; empty where there were too many for covariances
-  std::vector<LegRemainder> leg_remainders;  ///< of the odometry between these poses; likewise
+  std::size_t landmark_observations = 0;        ///< of landmarks of the map
+  std::vector<SmoothedObservation> remainders;  ///< of these; empty where there were too many for covariances
+  std::vector<IntervalRemainder> interval_remainders;  ///< of the odometry between these poses; likewise
   Duration cpu{0};
 };
 
 /// The graph of a run: poses where something was seen, with the filter's path, map and associations to start
-/// from. Sightings that the filter gated are in it: the whole log may judge them otherwise.
+/// from. Observations that the filter gated are in it: the whole log may judge them otherwise.
 struct RunGraph {
   Graph graph;
   Estimate start;
@@ -46,7 +46,7 @@ struct RunGraph {
 /// What another smoothing of the same log leaves to this one.
 struct Before {
   Calibration calibration = Calibration::Zero();  ///< what deviations from the config are taken to be
-  std::vector<std::size_t> steps;  ///< whose poses are estimated; empty: as smooth.least_leg_* says
+  std::vector<std::size_t> steps;  ///< whose poses are estimated; empty: as smooth.keyframe_* says
   /// By how much standard deviations of the odometry, in x, y and theta, are larger than stated.
   Eigen::Vector3d odometry_noise = Eigen::Vector3d::Ones();
 };

@@ -15,10 +15,10 @@ namespace {
 constexpr double kSettle_m = 0.25;
 constexpr double kLookahead_m = 1.0;
 
-int steps_of(const Leg& leg, const SimOptions& options) {
+int steps_of(const PathSegment& segment, const SimOptions& options) {
   const double turn_rate_max = to_radians(options.path.turn_rate_max_degps);
-  const double duration_s =
-      std::max(leg.arc.distance_m / options.path.speed_mps, std::abs(leg.arc.turn_rad) / turn_rate_max);
+  const double duration_s = std::max(segment.arc.distance_m / options.path.speed_mps,
+                                     std::abs(segment.arc.turn_rad) / turn_rate_max);
   return static_cast<int>(std::ceil(duration_s * options.wheels.rate_hz - 1e-9));
 }
 
@@ -38,13 +38,13 @@ class Driver {
     drive_.rate_hz = options.wheels.rate_hz;
   }
 
-  void follow(const Leg& leg) {
-    const int count = steps_of(leg, options_);
+  void follow(const PathSegment& segment) {
+    const int count = steps_of(segment, options_);
     for (int i = 0; i < count; ++i) {
-      const ArcStep planned{leg.arc.distance_m / count, leg.arc.turn_rad / count};
-      step(steer(planned, leg.at(static_cast<double>(i) / count), T_world_robot_));
+      const ArcStep planned{segment.arc.distance_m / count, segment.arc.turn_rad / count};
+      step(steer(planned, segment.at(static_cast<double>(i) / count), T_world_robot_));
     }
-    if (leg.arc.distance_m > 0.0) drive_.corners.push_back(drive_.steps.size());
+    if (segment.arc.distance_m > 0.0) drive_.corners.push_back(drive_.steps.size());
   }
 
   [[nodiscard]] Drive finish() && { return std::move(drive_); }
@@ -84,14 +84,14 @@ Pose2 Drive::at(Stamp when) const {
 
 double lap_duration_s(const Path& path, const SimOptions& options) {
   double steps = 0.0;
-  for (const Leg& leg : path) steps += steps_of(leg, options);
+  for (const PathSegment& segment : path) steps += steps_of(segment, options);
   return steps / options.wheels.rate_hz;
 }
 
 Drive drive(const Path& path, const SimOptions& options, std::uint64_t seed) {
   Driver driver(options, path.front().T_world_start, seed);
   for (int lap = 0; lap < options.path.laps; ++lap) {
-    for (const Leg& leg : path) driver.follow(leg);
+    for (const PathSegment& segment : path) driver.follow(segment);
   }
   return std::move(driver).finish();
 }

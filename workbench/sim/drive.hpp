@@ -39,8 +39,8 @@ struct Drive {
   [[nodiscard]] Pose2 at(Stamp when) const;
 };
 
-/// Seconds that one lap takes: legs at constant speed or the largest turn rate, whichever takes longer, and
-/// each in a whole number of odometry steps, so that a step is always one arc.
+/// Seconds that one lap takes: segments at constant speed or the largest turn rate, whichever takes longer,
+/// and each in a whole number of odometry steps, so that a step is always one arc.
 [[nodiscard]] double lap_duration_s(const Path& path, const SimOptions& options);
 
 /// Drives the path. The wheels roll the arcs of the path plus a small correction whenever slip has carried

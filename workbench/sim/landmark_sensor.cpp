@@ -27,13 +27,13 @@ RangeBearing disturbed(const LandmarkSensor& sensor, const RangeBearing& seen, R
   return {range_m, wrap_angle(seen.bearing_rad + std::sqrt(R(1, 1)) * random.normal())};
 }
 
-Measurement as_measured(Observe observe, const RangeBearing& value) {
+Measurement as_measured(SensorKind observe, const RangeBearing& value) {
   switch (observe) {
-    case Observe::kRange:
+    case SensorKind::kRange:
       return Range{value.range_m};
-    case Observe::kBearing:
+    case SensorKind::kBearing:
       return Bearing{value.bearing_rad};
-    case Observe::kRangeBearing:
+    case SensorKind::kRangeBearing:
       break;
   }
   return value;
@@ -54,7 +54,7 @@ LandmarkId false_identity(const std::vector<TrueLandmark>& landmarks, RandomStre
 }
 
 /// Somewhere in the field of view.
-RangeBearing false_sighting(const SensorOptions& options, RandomStream& random) {
+RangeBearing false_observation(const SensorOptions& options, RandomStream& random) {
   const double range_m = random.uniform(options.range_min_m, options.range_max_m);
   return {range_m, wrap_angle((random.uniform() - 0.5) * to_radians(options.field_of_view_deg))};
 }
@@ -97,11 +97,11 @@ Observations scan(const SensorOptions& options, const Pose2& T_world_robot,
     if (is_dropped) continue;
     report(is_misread ? misread(landmarks, i, random) : landmarks[i].id, value);
     if (options.clutter_probability > 0.0 && random.uniform() < options.clutter_probability)
-      seen.push_back({std::nullopt, as_measured(options.observe, false_sighting(options, random)), {}});
+      seen.push_back({std::nullopt, as_measured(options.observe, false_observation(options, random)), {}});
   }
   if (random.uniform() < options.false_probability) {
     const LandmarkId id = false_identity(landmarks, random);
-    report(id, false_sighting(options, random));
+    report(id, false_observation(options, random));
   }
   return seen;
 }

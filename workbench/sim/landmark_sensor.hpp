@@ -20,9 +20,9 @@ namespace waymark::sim {
 [[nodiscard]] RangeBearing sight(const Pose2& T_sensor_world, const Eigen::Vector2d& p_world);
 
 /// One scan from a true pose of the robot: the landmarks whose true range and bearing are within the sensor's
-/// limits, with noise, drops, misread identities and false sightings, which lie evenly over range and
+/// limits, with noise, drops, misread identities and false observations, which lie evenly over range and
 /// bearing. Noise may carry a value beyond a limit. Order follows `landmarks`, clutter behind what it
-/// accompanies; a false sighting with an identity comes last.
+/// accompanies; a false observation with an identity comes last.
 [[nodiscard]] Observations scan(const SensorOptions& options, const Pose2& T_world_robot,
                                 const std::vector<TrueLandmark>& landmarks, RandomStream& random);
 

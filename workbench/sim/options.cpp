@@ -82,12 +82,12 @@ void describe(Schema& schema, SensorOptions& o) {
               "chance that a visible landmark is not reported");
   schema.real(
       "sim.false_probability", o.false_probability, kProbability,
-      "chance per scan of a sighting where nothing stands, half of them with the identity of a landmark");
+      "chance per scan of an observation where nothing stands, half of them with the identity of a landmark");
   schema.real("sim.clutter_probability", o.clutter_probability, kProbability,
-              "chance per reported landmark of a further sighting where nothing stands, without identity");
+              "chance per reported landmark of a further observation where nothing stands, without identity");
   schema.real("sim.misread_probability", o.misread_probability, kProbability,
-              "chance that a sighting bears the identity of another landmark");
-  schema.boolean("sim.identities", o.identities, "sightings say which landmark they are of");
+              "chance that an observation bears the identity of another landmark");
+  schema.boolean("sim.identities", o.identities, "observations say which landmark they are of");
 }
 
 void describe(Schema& schema, RoomOptions& o) {
@@ -120,7 +120,7 @@ void describe(Schema& schema, CameraMount& o) {
   schema.real("sim.camera_yaw_deg", o.yaw_deg, {-180.0, 180.0}, "... about its z axis, positive looks left");
 }
 
-void describe(Schema& schema, FilmOptions& o) {
+void describe(Schema& schema, CameraSimulatorOptions& o) {
   schema.integer("sim.image_width_px", o.width_px, {16, 4096}, "width of the images");
   schema.integer("sim.image_height_px", o.height_px, {16, 4096}, "height of the images");
   schema.real("sim.image_rate_hz", o.rate_hz, {0.1, 1000.0}, "images per second");
@@ -174,10 +174,10 @@ Result<void> validate_limits(SimOptions options) {
 }
 
 // Light must reach the corners, half a pixel beyond the last.
-Result<void> validate_lens(const FilmOptions& film) {
-  const Camera camera(camera_of(film));
-  for (const double u : {-1.0, static_cast<double>(film.width_px)})
-    for (const double v : {-1.0, static_cast<double>(film.height_px)})
+Result<void> validate_lens(const CameraSimulatorOptions& camera_simulator) {
+  const Camera camera(camera_of(camera_simulator));
+  for (const double u : {-1.0, static_cast<double>(camera_simulator.width_px)})
+    for (const double v : {-1.0, static_cast<double>(camera_simulator.height_px)})
       if (!camera.ray({u, v}))
         return Error{
             "simulation: with sim.camera_k1, k2, p1, p2 and k3 no light reaches the corners of the image; "
@@ -193,11 +193,11 @@ void describe(Schema& schema, SimOptions& options) {
   describe(schema, options.wheels);
   describe(schema, options.sensor);
   describe(schema, options.room);
-  describe(schema, options.film);
+  describe(schema, options.camera_simulator);
   describe(schema, options.truth);
 }
 
-CameraOptions camera_of(const FilmOptions& options) {
+CameraOptions camera_of(const CameraSimulatorOptions& options) {
   CameraOptions camera{.width_px = options.width_px, .height_px = options.height_px};
   camera.fu_px = 0.5 * options.width_px / std::tan(0.5 * to_radians(options.field_of_view_deg));
   camera.fv_px = camera.fu_px;
@@ -210,8 +210,8 @@ CameraOptions camera_of(const FilmOptions& options) {
 
 Result<void> validate(const SimOptions& options) {
   if (auto limits = validate_limits(options); !limits) return limits;
-  const auto& [path, world, wheels, sensor, room, film, truth] = options;
-  if (auto lens = validate_lens(film); !lens) return lens;
+  const auto& [path, world, wheels, sensor, room, camera_simulator, truth] = options;
+  if (auto lens = validate_lens(camera_simulator); !lens) return lens;
   if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
     return Error{"simulation: sim.scene is corridor, which leads round a sim.path of square or loop only"};
   if (room.scene != SceneKind::kNone && room.markers > 0 && world.landmarks > 0)

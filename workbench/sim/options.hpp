@@ -15,7 +15,7 @@ namespace waymark::sim {
 enum class Shape : std::uint8_t { kSquare, kLShape, kFigureEight, kRandom, kLoop };
 enum class OdometryKind : std::uint8_t { kWheels, kVelocity, kPose };
 enum class Spread : std::uint8_t { kPath, kArea };
-enum class Observe : std::uint8_t { kRangeBearing, kRange, kBearing };
+enum class SensorKind : std::uint8_t { kRangeBearing, kRange, kBearing };
 enum class SceneKind : std::uint8_t { kNone, kRoom, kCorridor };
 
 /// The closed path that the robot is told to drive.
@@ -56,7 +56,7 @@ struct WheelOptions {
 
 /// What sees landmarks, and how badly.
 struct SensorOptions {
-  Observe observe = Observe::kRangeBearing;
+  SensorKind observe = SensorKind::kRangeBearing;
   double rate_hz = 15.0;
   double x_m = 0.0;
   double y_m = 0.0;
@@ -87,7 +87,7 @@ struct RoomOptions {
 };
 
 /// A camera, and how badly it sees.
-struct FilmOptions {
+struct CameraSimulatorOptions {
   int width_px = 320;
   int height_px = 240;
   double rate_hz = 30.0;
@@ -123,7 +123,7 @@ struct SimOptions {
   WheelOptions wheels;
   SensorOptions sensor;
   RoomOptions room;
-  FilmOptions film;
+  CameraSimulatorOptions camera_simulator;
   TruthOptions truth;
 };
 
@@ -131,7 +131,7 @@ struct SimOptions {
 void describe(Schema& schema, SimOptions& options);
 
 /// The camera as a filter is to be told of it.
-[[nodiscard]] CameraOptions camera_of(const FilmOptions& options);
+[[nodiscard]] CameraOptions camera_of(const CameraSimulatorOptions& options);
 
 /// Every value within its limits and all of them possible together; otherwise names the key and what would be
 /// right.

@@ -25,7 +25,7 @@ Corners l_shape_corners(double side_m) {
   return {{h, -h}, {h, 0.0}, {0.0, 0.0}, {0.0, h}, {-h, h}, {-h, -h}};
 }
 
-// Sides are at least a quarter of the square's, so that no leg is too short to see anything new.
+// Sides are at least a quarter of the square's, so that no segment is too short to see anything new.
 Corners random_corners(double side_m, int count, RandomStream random) {
   const auto draw = [&] {
     const double x_m = random.uniform(-0.5, 0.5) * side_m;
@@ -77,12 +77,12 @@ Corner make_corner(const Eigen::Vector2d& side_before, const Eigen::Vector2d& si
 
 }  // namespace
 
-Pose2 Leg::at(double fraction) const {
+Pose2 PathSegment::at(double fraction) const {
   return T_world_start *
          arc_increment({fraction * arc.distance_m, fraction * arc.turn_rad}, ArcModel::kExact);
 }
 
-double Leg::distance_m(const Eigen::Vector2d& p_world) const {
+double PathSegment::distance_m(const Eigen::Vector2d& p_world) const {
   Eigen::Vector2d p = T_world_start.inverse() * p_world;
   if (arc.distance_m == 0.0 || arc.turn_rad == 0.0) {
     return std::hypot(p.x() - std::clamp(p.x(), 0.0, arc.distance_m), p.y());
@@ -102,7 +102,7 @@ Path polygon_path(const std::vector<Eigen::Vector2d>& corners, double corner_rad
     const double heading_rad = std::atan2(side(i).y(), side(i).x());
     const Eigen::Vector2d start = corners[i] + side(i).normalized() * before.trim_m;
     const double straight_m = std::max(0.0, side(i).norm() - before.trim_m - after.trim_m);
-    const Leg straight{{start.x(), start.y(), heading_rad}, {straight_m, 0.0}};
+    const PathSegment straight{{start.x(), start.y(), heading_rad}, {straight_m, 0.0}};
     if (straight_m > 0.0) path.push_back(straight);
     path.push_back({straight.at(1.0), {after.arc_length_m, after.turn_rad}});
   }
@@ -128,13 +128,13 @@ Path make_path(const PathOptions& options, std::uint64_t seed) {
 
 double length_m(const Path& path) {
   double sum_m = 0.0;
-  for (const Leg& leg : path) sum_m += leg.arc.distance_m;
+  for (const PathSegment& segment : path) sum_m += segment.arc.distance_m;
   return sum_m;
 }
 
 double distance_m(const Path& path, const Eigen::Vector2d& p_world) {
   double nearest_m = path.front().distance_m(p_world);
-  for (const Leg& leg : path) nearest_m = std::min(nearest_m, leg.distance_m(p_world));
+  for (const PathSegment& segment : path) nearest_m = std::min(nearest_m, segment.distance_m(p_world));
   return nearest_m;
 }
 

@@ -13,18 +13,18 @@
 namespace waymark::sim {
 
 /// One arc of a path. No turn makes it a straight line, no distance a turn on the spot.
-struct Leg {
+struct PathSegment {
   Pose2 T_world_start;
   ArcStep arc;
 
   /// The pose at `fraction` in [0, 1] of the way.
   [[nodiscard]] Pose2 at(double fraction) const;
-  /// From a point of the world to the nearest point of the leg, m. Turns of at most one full circle.
+  /// From a point of the world to the nearest point of the segment, m. Turns of at most one full circle.
   [[nodiscard]] double distance_m(const Eigen::Vector2d& p_world) const;
 };
 
 /// One lap: it ends in the pose in which it starts.
-using Path = std::vector<Leg>;
+using Path = std::vector<PathSegment>;
 
 /// The lap that the options describe, counter-clockwise about the origin where it has a sense. `seed` matters
 /// to random paths only, which are drawn from the world's stream.

@@ -54,8 +54,8 @@ std::vector<Vector3d> visible_polygon(const Rectangle& r, const Viewpoint& from)
 
 /// Of the plane n . (P - corner) = 0 with P = camera + depth * ray: one over the depth, and texture
 /// coordinates times that.
-TexturedRectangle seen_from(const Rectangle& r, const Viewpoint& from, double height_m, const RipMap& texture,
-                            std::int32_t id) {
+TexturedRectangle seen_from(const Rectangle& r, const Viewpoint& from, double height_m,
+                            const SummedMipmap& texture, std::int32_t id) {
   const Vector3d inverse_depth = -(from.R_camera_world * r.normal()) / height_m;
   const Vector3d from_corner = from.p_world_camera - r.corner_m;
   const auto coordinate = [&](const Vector3d& axis, double offset_m) {
@@ -138,9 +138,9 @@ struct Batch {
 
 }  // namespace
 
-Renderer::Renderer(const Camera& camera, ThreadTeam& team)
+Renderer::Renderer(const Camera& camera, ThreadPool& pool)
     : camera_(camera),
-      team_(team),
+      pool_(pool),
       columns_(tiles_over(camera.width_px(), kNoiseWidth) * (kNoiseWidth / kTileWidth)),
       rows_(tiles_over(camera.height_px(), kTileHeight)),
       stride_(static_cast<std::size_t>(columns_) * kTileWidth),
@@ -193,8 +193,8 @@ bool Renderer::may_see(const Bounds& b, const Seen& seen) {
   return b.x_min <= other.x_max && b.x_max >= other.x_min && b.y_min <= other.y_max && b.y_max >= other.y_min;
 }
 
-void Renderer::find_visible(const std::vector<RipMap>& textures, const std::vector<Rectangle>& rectangles,
-                            const Viewpoint& viewpoint) {
+void Renderer::find_visible(const std::vector<SummedMipmap>& textures,
+                            const std::vector<Rectangle>& rectangles, const Viewpoint& viewpoint) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   seen_.clear();
   for (std::size_t i = 0; i < rectangles.size(); ++i) {
@@ -300,24 +300,24 @@ void Renderer::add_light(const Tile& tile, float weight) {
 
 void Renderer::clear() { std::fill_n(light_.data(), light_.size(), 0.0F); }
 
-void Renderer::expose(const std::vector<RipMap>& textures, const std::vector<Rectangle>& rectangles,
+void Renderer::expose(const std::vector<SummedMipmap>& textures, const std::vector<Rectangle>& rectangles,
                       const Viewpoint& viewpoint, double weight) {
   find_visible(textures, rectangles, viewpoint);
   const int count = static_cast<int>(tiles_.size());
-  team_.run(count, [&](int i) { trace(static_cast<std::size_t>(i)); });
+  pool_.run(count, [&](int i) { trace(static_cast<std::size_t>(i)); });
   // Edges show in the ids of the neighbouring tiles too, so all must be there.
-  team_.run(count, [&](int i) {
+  pool_.run(count, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
     smooth_edges(tiles_[index], index * kTileRays);
     add_light(tiles_[index], static_cast<float>(weight));
   });
 }
 
-GreyImage Renderer::develop(const kernels::Development& development) {
+GreyImage Renderer::develop(const kernels::ImageNoiseModel& noise_model) {
   const int height = camera_.height_px();
   const auto width = static_cast<std::size_t>(camera_.width_px());
   GreyImage image(camera_.width_px(), height);
-  team_.run(rows_, [&](int band) {
+  pool_.run(rows_, [&](int band) {
     AlignedArray<float> scratch(stride_ + 2 * kernels::kRayLanes);
     AlignedArray<float> noise(stride_);
     std::vector<std::uint8_t> out(stride_);
@@ -326,8 +326,8 @@ GreyImage Renderer::develop(const kernels::Development& development) {
       for (int k = 0; k < static_cast<int>(rows.size()); ++k)
         rows[static_cast<std::size_t>(k)] =
             light_.data() + place(0, std::clamp(v + k - kernels::kBlurRadiusMax, 0, height - 1));
-      kernels::develop_row(development, static_cast<std::uint32_t>(v), rows.data(), width, scratch.data(),
-                           noise.data(), out.data());
+      kernels::apply_image_noise(noise_model, static_cast<std::uint32_t>(v), rows.data(), width,
+                                 scratch.data(), noise.data(), out.data());
       std::copy_n(out.data(), width, image.data() + std::ptrdiff_t{v} * image.stride());
     }
   });

@@ -11,7 +11,7 @@
 #include "waymark/core/parallel.hpp"
 #include "waymark/models/camera.hpp"
 
-#include "workbench/sim/develop_row.hpp"
+#include "workbench/sim/apply_image_noise.hpp"
 #include "workbench/sim/scene.hpp"
 #include "workbench/sim/trace_rays.hpp"
 
@@ -23,7 +23,7 @@ struct Viewpoint {
   Eigen::Vector3d p_world_camera = Eigen::Vector3d::Zero();
 };
 
-/// Takes pictures of rectangles through a camera with distortion. One ray per pixel, its texture averaged
+/// Takes images of rectangles through a camera with distortion. One ray per pixel, its texture averaged
 /// over the pixel; sixteen rays where pixels border on another surface, so that edges lie where they should
 /// to a few hundredths of a pixel. The image is cut into tiles, and a tile looks only at rectangles that it
 /// may see. Same bits on any number of threads and every processor.
@@ -36,15 +36,15 @@ class Renderer {
   };
 
   /// Light must reach all of the camera's image. Both arguments are referred to.
-  Renderer(const Camera& camera, ThreadTeam& team);
+  Renderer(const Camera& camera, ThreadPool& pool);
 
   /// Forgets all light.
   void clear();
   /// Adds `weight` times what is seen from a viewpoint.
-  void expose(const std::vector<RipMap>& textures, const std::vector<Rectangle>& rectangles,
+  void expose(const std::vector<SummedMipmap>& textures, const std::vector<Rectangle>& rectangles,
               const Viewpoint& viewpoint, double weight);
   /// Turns the light into grey values.
-  [[nodiscard]] GreyImage develop(const kernels::Development& development);
+  [[nodiscard]] GreyImage develop(const kernels::ImageNoiseModel& noise_model);
 
  private:
   /// A part of the image, in rays (x, y, 1).
@@ -69,7 +69,7 @@ class Renderer {
   static void remove_hidden(Tile& tile);
 
   void add_pixel(Tile& tile, int u, int v);
-  void find_visible(const std::vector<RipMap>& textures, const std::vector<Rectangle>& rectangles,
+  void find_visible(const std::vector<SummedMipmap>& textures, const std::vector<Rectangle>& rectangles,
                     const Viewpoint& viewpoint);
   void trace(std::size_t index);
   void smooth_edges(const Tile& tile, std::size_t first_ray);
@@ -80,7 +80,7 @@ class Renderer {
   }
 
   const Camera& camera_;
-  ThreadTeam& team_;
+  ThreadPool& pool_;
   int columns_, rows_;  ///< of tiles
   std::size_t stride_;  ///< of the arrays that hold whole rows of pixels
   std::vector<Tile> tiles_;

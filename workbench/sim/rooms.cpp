@@ -28,9 +28,9 @@ constexpr double kWalkMin_m = 3.0;
 /// The smallest upright rectangle around the path, widened.
 Walls around(const Path& path, double margin_m, double height_m) {
   Walls walls{.low_m = path.front().at(0.0).position(), .high_m = walls.low_m, .height_m = height_m};
-  for (const Leg& leg : path) {
+  for (const PathSegment& segment : path) {
     for (int i = 0; i <= 32; ++i) {
-      const Vector2d p = leg.at(i / 32.0).position();
+      const Vector2d p = segment.at(i / 32.0).position();
       walls.low_m = walls.low_m.cwiseMin(p);
       walls.high_m = walls.high_m.cwiseMax(p);
     }
@@ -148,7 +148,7 @@ class Interior {
 /// Paints textures one after the other, each from a stream of its own.
 class Painter {
  public:
-  Painter(std::vector<RipMap>& textures, std::uint64_t seed) : textures_(textures), seed_(seed) {}
+  Painter(std::vector<SummedMipmap>& textures, std::uint64_t seed) : textures_(textures), seed_(seed) {}
 
   template <class Paint>
   std::size_t add(Paint&& paint) {
@@ -166,7 +166,7 @@ class Painter {
   }
 
  private:
-  std::vector<RipMap>& textures_;
+  std::vector<SummedMipmap>& textures_;
   std::uint64_t seed_;
 };
 

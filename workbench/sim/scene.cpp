@@ -60,13 +60,13 @@ Block part_of(const Walker& walker, const Pose2& T_world_walker, const Vector2d&
 
 void add_walker(const Walker& walker, Stamp when, std::vector<Rectangle>& rectangles) {
   const Vector2d line = walker.to_m - walker.from_m;
-  const double way_m = walker.speed_mps * to_seconds(when);
-  const double along_m = std::fmod(way_m, 2.0 * line.norm());
+  const double travelled_m = walker.speed_mps * to_seconds(when);
+  const double along_m = std::fmod(travelled_m, 2.0 * line.norm());
   const bool returns = along_m > line.norm();
   const Vector2d p = walker.from_m + (returns ? 2.0 * line.norm() - along_m : along_m) * line.normalized();
   const Vector2d ahead = returns ? Vector2d(-line) : line;
   const Pose2 T{p.x(), p.y(), std::atan2(ahead.y(), ahead.x())};
-  const double step_m = 0.25 * std::sin(way_m * 2.0 * kPi / 1.4);
+  const double step_m = 0.25 * std::sin(travelled_m * 2.0 * kPi / 1.4);
   add_block(part_of(walker, T, {step_m, 0.11}, 0.0, {0.17, 0.16, 0.85}), rectangles);
   add_block(part_of(walker, T, {-step_m, -0.11}, 0.0, {0.17, 0.16, 0.85}), rectangles);
   add_block(part_of(walker, T, {0.0, 0.0}, 0.8, {0.26, 0.46, 0.6}), rectangles);

@@ -7,7 +7,7 @@
 
 #include "waymark/core/stamp.hpp"
 
-#include "workbench/sim/rip_map.hpp"
+#include "workbench/sim/summed_mipmap.hpp"
 #include "workbench/sim/textures.hpp"
 
 namespace waymark::sim {
@@ -54,7 +54,7 @@ struct Walker {
 
 /// Everything that a camera can see.
 struct Scene {
-  std::vector<RipMap> textures;
+  std::vector<SummedMipmap> textures;
   std::vector<Rectangle> rectangles;
   std::vector<Walker> walkers;
 

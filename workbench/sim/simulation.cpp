@@ -24,7 +24,7 @@ constexpr double kRangeSigmaMin_m = 1e-3;
 constexpr double kBearingSigmaMin_deg = 1e-2;
 // What the exposure of a driving camera leaves of its direction in rendered rooms, away from the ends of
 // turns.
-constexpr double kMountSigma_deg = 6e-3;
+constexpr double kJitter_deg = 6e-3;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -70,12 +70,12 @@ bool has_images(const SimOptions& options) { return options.room.scene != SceneK
 Settings settings_of(const SimOptions& options) {
   Settings settings = sensor_settings(options);
   if (!has_images(options)) return settings;
-  std::ranges::move(camera_settings(camera_of(options.film)), std::back_inserter(settings));
+  std::ranges::move(camera_settings(camera_of(options.camera_simulator)), std::back_inserter(settings));
   if (options.room.markers > 0) {
     settings.emplace_back("observe", "markers");
     settings.emplace_back("markers.dictionary", "4x4_50");
     settings.emplace_back("markers.size_m", fmt::format("{}", options.room.marker_size_m));
-    settings.emplace_back("camera.vibration_deg", fmt::format("{}", kMountSigma_deg));
+    settings.emplace_back("camera.jitter_deg", fmt::format("{}", kJitter_deg));
   }
   return settings;
 }
@@ -148,15 +148,15 @@ void add_truth(std::vector<Event>& events, const Drive& drive, const TruthOption
   for (const Stamp stamp : stamps) events.push_back(truth_event(drive, stamp, options.heading));
 }
 
-void add_images(std::vector<Event>& events, const Film& film) {
-  for (std::size_t i = 0; i < film.size(); ++i)
-    if (!film.is_lost(i)) events.emplace_back(film.stamp(i), Image{});
+void add_images(std::vector<Event>& events, const CameraSimulator& camera_simulator) {
+  for (std::size_t i = 0; i < camera_simulator.size(); ++i)
+    if (!camera_simulator.is_lost(i)) events.emplace_back(camera_simulator.stamp(i), Image{});
 }
 
 Result<void> check_size(const Path& path, const SimOptions& options) {
   const double duration_s = options.path.laps * lap_duration_s(path, options);
   const double events = duration_s * (options.wheels.rate_hz + options.sensor.rate_hz +
-                                      options.truth.rate_hz + options.film.rate_hz);
+                                      options.truth.rate_hz + options.camera_simulator.rate_hz);
   if (events <= kEventsMax) return {};
   return Error{
       fmt::format("simulation: the drive would take {:.0f} s and {:.2g} events, at most {:.2g} can be made; "
@@ -184,7 +184,7 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   add_odometry(events, driven, options.wheels);
   add_scans(events, driven, options.sensor, info.landmarks, seed);
   add_truth(events, driven, options.truth);
-  std::unique_ptr<Film> film;
+  std::unique_ptr<CameraSimulator> camera_simulator;
   if (has_images(options)) {
     info.only_pixels = std::ranges::none_of(
         events, [](const Event& event) { return std::holds_alternative<Observations>(event.content); });
@@ -193,17 +193,20 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
                                 marker.centre_m.x(),
                                 marker.centre_m.y(),
                                 marker.centre_m.z()});
-    film = std::make_unique<Film>(options.film, build_scene(options.room, path, seed), driven, seed, threads);
-    add_images(events, *film);
+    camera_simulator = std::make_unique<CameraSimulator>(
+        options.camera_simulator, build_scene(options.room, path, seed), driven, seed, threads);
+    add_images(events, *camera_simulator);
   }
-  return std::unique_ptr<Simulation>(new Simulation(std::move(info), std::move(events), std::move(film)));
+  return std::unique_ptr<Simulation>(
+      new Simulation(std::move(info), std::move(events), std::move(camera_simulator)));
 }
 
 Result<std::optional<Event>> Simulation::next() {
   auto event = EventList::next();
   if (event && *event)
     if (auto* image = std::get_if<Image>(&(**event).content))
-      image->pixels = std::make_shared<const GreyImage>(film_->take(film_->number((**event).stamp)));
+      image->pixels = std::make_shared<const GreyImage>(
+          camera_simulator_->take(camera_simulator_->number((**event).stamp)));
   return event;
 }
 

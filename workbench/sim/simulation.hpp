@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "workbench/logs/event_list.hpp"
+#include "workbench/sim/camera_simulator.hpp"
 #include "workbench/sim/drive.hpp"
-#include "workbench/sim/film.hpp"
 #include "workbench/sim/options.hpp"
 
 namespace waymark::sim {
@@ -31,10 +31,10 @@ class Simulation final : public EventList {
   [[nodiscard]] Result<std::optional<Event>> next() override;
 
  private:
-  Simulation(LogInfo info, std::vector<Event> events, std::unique_ptr<Film> film)
-      : EventList(std::move(info), std::move(events)), film_(std::move(film)) {}
+  Simulation(LogInfo info, std::vector<Event> events, std::unique_ptr<CameraSimulator> camera_simulator)
+      : EventList(std::move(info), std::move(events)), camera_simulator_(std::move(camera_simulator)) {}
 
-  std::unique_ptr<Film> film_;  ///< where there are images
+  std::unique_ptr<CameraSimulator> camera_simulator_;  ///< where there are images
 };
 
 }  // namespace waymark::sim

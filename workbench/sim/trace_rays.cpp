@@ -26,7 +26,7 @@ constexpr IntTag kInts;
 HWY_INLINE Floats all(float value) { return hn::Set(kFloats, value); }
 HWY_INLINE Ints all(std::int32_t value) { return hn::Set(kInts, value); }
 
-// No fused multiply-add: every processor is to see the same picture.
+// No fused multiply-add: every processor is to see the same image.
 HWY_INLINE Floats along(const RayFunction& f, Floats x, Floats y) {
   return hn::Add(hn::Add(hn::Mul(all(f.x), x), hn::Mul(all(f.y), y)), all(f.z));
 }
@@ -235,7 +235,7 @@ Hit nearest_hit(float x, float y, const TexturedRectangle* rectangles, std::size
 }
 
 int texel(const TexturedRectangle& r, int lu, int lv, int column, int row) {
-  const RipLayout& layout = r.layout;
+  const MipmapLayout& layout = r.layout;
   const int u = column & (layout.width(lu) - 1);
   const int v = row & (layout.height(lv) - 1);
   return r.texels[(layout.first_row(lv) + v) * layout.pitch() + layout.first_column(lu) + u] & 0xFF;

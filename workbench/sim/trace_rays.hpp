@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "workbench/sim/rip_map_rows.hpp"
+#include "workbench/sim/summed_mipmap_rows.hpp"
 
 namespace waymark::kernels {
 
@@ -23,7 +23,7 @@ struct TexturedRectangle {
   RayFunction t;
   float s_min = 0.0F, s_max = 0.0F, t_min = 0.0F, t_max = 0.0F;
   const std::uint16_t* texels = nullptr;
-  RipLayout layout;
+  MipmapLayout layout;
   float gain = 1.0F;    ///< grey per texel value
   std::int32_t id = 0;  ///< at least 0
 };

@@ -11,9 +11,9 @@ namespace {
 constexpr int kTriesPerSeparation = 200;
 
 Eigen::Vector2d point_at(const Path& path, double along_m) {
-  for (const Leg& leg : path) {
-    if (along_m < leg.arc.distance_m) return leg.at(along_m / leg.arc.distance_m).position();
-    along_m -= leg.arc.distance_m;
+  for (const PathSegment& segment : path) {
+    if (along_m < segment.arc.distance_m) return segment.at(along_m / segment.arc.distance_m).position();
+    along_m -= segment.arc.distance_m;
   }
   return path.back().at(1.0).position();
 }

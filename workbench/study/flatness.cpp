@@ -15,7 +15,7 @@ namespace {
 constexpr double kFall = 2.0;
 constexpr double kPartOfFirstStep = 0.1;  // of a key's first step in the search
 constexpr int kMostSteps = 9;
-constexpr int kMostInwards = 4;
+constexpr int kMaxInwards = 4;
 
 /// One side of one key, followed outwards.
 struct Side {
@@ -50,7 +50,7 @@ class Explorer {
       : problem_(problem), optimum_(optimum), keep_going_(keep_going) {}
 
   [[nodiscard]] std::optional<TuneScore> score(const TunePoint& at) const {
-    ThreadTeam alone(1);
+    ThreadPool alone(1);
     return problem_.score(at, {}, keep_going_, alone);
   }
 
@@ -75,7 +75,7 @@ class Explorer {
       if (side.points.back().second >= kFall) break;
       distance = std::min(end, 2.0 * distance);
     }
-    for (int step = 0; step < kMostInwards && side.points.size() > 1 && side.points[1].second >= kFall;
+    for (int step = 0; step < kMaxInwards && side.points.size() > 1 && side.points[1].second >= kFall;
          ++step) {
       inwards *= 0.5;
       if (!look(inwards)) return std::nullopt;
@@ -159,8 +159,8 @@ Eigen::MatrixXd slope_covariance(const Quadratic& quadratic) {
   return J * static_cast<double>(slopes.size()) / static_cast<double>(slopes.size() - 1);
 }
 
-/// By how much the reach along one key grows for the sake of the other keys and of sightings that depend on
-/// each other; ones where the quadratic is no hill.
+/// By how much the reach along one key grows for the sake of the other keys and of observations that depend
+/// on each other; ones where the quadratic is no hill.
 Eigen::VectorXd growth(const TuneProblem& problem, const Quadratic& quadratic, double value) {
   const auto n = static_cast<Eigen::Index>(quadratic.count());
   const Eigen::MatrixXd H = curvature(problem, quadratic, value);
@@ -202,7 +202,7 @@ void note_best(const Sides& sides, const TunePoint& optimum, Flatness& flatness)
 template <class Job>
 bool run_all(std::size_t count, int threads, const Job& job) {
   std::vector<char> done(count);
-  ThreadTeam(threads).run(static_cast<int>(count), [&](int i) {
+  ThreadPool(threads).run(static_cast<int>(count), [&](int i) {
     done[static_cast<std::size_t>(i)] = job(static_cast<std::size_t>(i)) ? 1 : 0;
   });
   return std::ranges::all_of(done, [](char each) { return each != 0; });

@@ -29,8 +29,8 @@ struct Flatness {
 /// and those of every pair of keys then tells how much farther that is if all the other keys follow: by
 /// sqrt(H^-1_ii H_ii).
 ///
-/// Sightings that come from one pose of the robot are not independent, though the likelihood takes them for
-/// that. So the interval is widened by sqrt(V_ii / H^-1_ii), V = H^-1 J H^-1, where it is more than 1
+/// Observations that come from one pose of the robot are not independent, though the likelihood takes them
+/// for that. So the interval is widened by sqrt(V_ii / H^-1_ii), V = H^-1 J H^-1, where it is more than 1
 /// (Godambe 1960; White 1982): J is the covariance of the slope, estimated from the slopes of the kTuneBlocks
 /// blocks of each log.
 ///

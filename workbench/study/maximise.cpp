@@ -8,7 +8,7 @@
 namespace waymark::study {
 namespace {
 
-constexpr int kMostRestarts = 3;
+constexpr int kMaxRestarts = 3;
 // What a restart must gain to be worth another.
 constexpr double kWorthwhile = 0.1;
 
@@ -71,7 +71,7 @@ Maximum maximise(const std::function<std::optional<double>(const std::vector<dou
   Search search{&f, {}, nullptr};
   search.look(box.start);
   if (search.best.stopped) return {box.start, 0.0, 0, true};
-  for (int restart = 0; restart <= kMostRestarts && !search.best.stopped; ++restart) {
+  for (int restart = 0; restart <= kMaxRestarts && !search.best.stopped; ++restart) {
     const double before = search.best.value;
     climb(box, restart == 0 ? 1.0 : 0.3, resolution, search);
     if (restart > 0 && search.best.value < before + kWorthwhile) break;

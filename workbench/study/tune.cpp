@@ -12,7 +12,7 @@ namespace {
 
 // In the search: values two percent apart are the same.
 constexpr double kResolution = 0.02;
-constexpr int kMostPolishes = 2;
+constexpr int kMaxPolishes = 2;
 constexpr double kWorthPolishing = 0.5;
 
 /// Counts runs for the progress and asks whether to go on.
@@ -52,7 +52,7 @@ class Tuner {
 
  private:
   [[nodiscard]] std::optional<TuneScore> score(const TunePoint& at, std::optional<std::size_t> without,
-                                               ThreadTeam& team);
+                                               ThreadPool& thread_pool);
   [[nodiscard]] Maximum fit(const TunePoint& start, std::optional<std::size_t> without, int threads);
   [[nodiscard]] std::vector<Maximum> fit_all();
   [[nodiscard]] std::optional<Flatness> explore(Maximum& best);
@@ -67,9 +67,9 @@ class Tuner {
 };
 
 std::optional<TuneScore> Tuner::score(const TunePoint& at, std::optional<std::size_t> without,
-                                      ThreadTeam& team) {
+                                      ThreadPool& thread_pool) {
   auto score = problem_.score(
-      at, without, [this] { return progress_.ask(); }, team);
+      at, without, [this] { return progress_.ask(); }, thread_pool);
   progress_.count();
   return score;
 }
@@ -81,10 +81,10 @@ Maximum Tuner::fit(const TunePoint& start, std::optional<std::size_t> without, i
     box.high.push_back(key.to_search(key.high));
     box.step.push_back(key.first_step());
   }
-  ThreadTeam team(threads);
+  ThreadPool thread_pool(threads);
   return maximise(
       [&](const std::vector<double>& at) -> std::optional<double> {
-        const auto scored = score(at, without, team);
+        const auto scored = score(at, without, thread_pool);
         if (!scored) return std::nullopt;
         return problem_.value(without ? problem_.total_without(*scored, *without) : problem_.total(*scored));
       },
@@ -95,7 +95,7 @@ Maximum Tuner::fit(const TunePoint& start, std::optional<std::size_t> without, i
 std::vector<Maximum> Tuner::fit_all() {
   std::vector<Maximum> fits(problem_.folds() + 1);
   const int count = static_cast<int>(fits.size());
-  ThreadTeam(std::min(threads_, count)).run(count, [&](int i) {
+  ThreadPool(std::min(threads_, count)).run(count, [&](int i) {
     const auto fold = i == 0 ? std::nullopt : std::optional(static_cast<std::size_t>(i - 1));
     fits[static_cast<std::size_t>(i)] = fit(problem_.start(), fold, std::max(1, threads_ / count));
   });
@@ -106,7 +106,7 @@ std::vector<Maximum> Tuner::fit_all() {
 std::optional<Flatness> Tuner::explore(Maximum& best) {
   for (int polish = 0;; ++polish) {
     auto flatness = find_flatness(problem_, best.at, threads_, [this] { return progress_.ask(); });
-    if (!flatness || polish == kMostPolishes || flatness->gained < kWorthPolishing) return flatness;
+    if (!flatness || polish == kMaxPolishes || flatness->gained < kWorthPolishing) return flatness;
     best = fit(flatness->best, {}, threads_);
     if (best.stopped) return std::nullopt;
   }
@@ -129,13 +129,13 @@ void Tuner::fill_keys(const TunePoint& best, const std::optional<Flatness>& flat
 }
 
 void Tuner::fill_held_out(const std::vector<Maximum>& fits) {
-  ThreadTeam team(threads_);
-  const auto before = score(problem_.start(), {}, team);
+  ThreadPool thread_pool(threads_);
+  const auto before = score(problem_.start(), {}, thread_pool);
   if (!before) return;
   TuneSums all_before;
   TuneSums all_after;
   for (std::size_t fold = 0; fold < problem_.folds(); ++fold) {
-    const auto after = score(fits[fold + 1].at, {}, team);
+    const auto after = score(fits[fold + 1].at, {}, thread_pool);
     if (!after) return result_.held_out.clear();
     const TuneSums of_before = problem_.total_of(*before, fold);
     const TuneSums of_after = problem_.total_of(*after, fold);
@@ -148,9 +148,9 @@ void Tuner::fill_held_out(const std::vector<Maximum>& fits) {
 }
 
 void Tuner::fill_logs(const TunePoint& best) {
-  ThreadTeam team(threads_);
-  const auto before = score(problem_.start(), {}, team);
-  const auto after = score(best, {}, team);
+  ThreadPool thread_pool(threads_);
+  const auto before = score(problem_.start(), {}, thread_pool);
+  const auto after = score(best, {}, thread_pool);
   if (!before || !after) return;
   result_.before = problem_.figure(problem_.total(*before));
   result_.after = problem_.figure(problem_.total(*after));
@@ -172,7 +172,7 @@ void Tuner::fill_logs(const TunePoint& best) {
 TuneResult Tuner::tune() {
   result_.by = problem_.by();
   result_.idle_keys = problem_.idle_keys();
-  for (const TuneLog& log : problem_.logs()) result_.sightings += log.sightings();
+  for (const TuneLog& log : problem_.logs()) result_.observations += log.observations();
   std::vector<Maximum> fits = fit_all();
   Maximum& best = fits.front();
   std::optional<Flatness> flatness;

@@ -27,7 +27,7 @@ struct TunedKey {
 };
 
 /// A part of the data that was left out of a fit of its own, and what it scores before and after.
-struct HeldOut {
+struct HeldOutLog {
   std::string name;
   double before = 0.0;
   double after = 0.0;
@@ -42,17 +42,17 @@ struct TunedLog {
   Figures figures_after{};
 };
 
-/// Scores are log-likelihoods per sighting (the more the better), or RMSE in m (the less the better).
+/// Scores are log-likelihoods per observation (the more the better), or RMSE in m (the less the better).
 struct TuneResult {
   TuneBy by = TuneBy::kLikelihood;
   std::vector<TunedKey> keys;
   std::vector<std::string> idle_keys;  ///< default keys that make no difference on these logs
-  std::size_t sightings = 0;
+  std::size_t observations = 0;
   double before = 0.0;  ///< score of everything
   double after = 0.0;
-  std::vector<HeldOut> held_out;  ///< by part, then all parts together; empty where tuning was stopped
-  std::vector<TunedLog> logs;     ///< likewise
-  int runs = 0;                   ///< over all logs
+  std::vector<HeldOutLog> held_out;  ///< by part, then all parts together; empty where tuning was stopped
+  std::vector<TunedLog> logs;        ///< likewise
+  int runs = 0;                      ///< over all logs
   bool stopped = false;
 };
 

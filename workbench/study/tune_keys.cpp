@@ -10,7 +10,7 @@
 namespace waymark::study {
 namespace {
 
-constexpr double kMostFactor = 1000.0;
+constexpr double kMaxFactor = 1000.0;
 const double kFirstFactor = std::log(2.0);
 // Of a key that may be negative: a third of it, or this.
 constexpr double kFirstStep = 0.02;
@@ -34,21 +34,21 @@ Result<TuneKey> tune_key(const Schema& schema, const std::string& name) {
     return Error{fmt::format(
         "--keys: {0} is 0, from where no factor leads away; begin elsewhere, for example --set {0}=0.01",
         name)};
-  return TuneKey{name, start, std::max(limits->low, start / kMostFactor),
-                 std::min(limits->high, start * kMostFactor), true};
+  return TuneKey{name, start, std::max(limits->low, start / kMaxFactor),
+                 std::min(limits->high, start * kMaxFactor), true};
 }
 
 /// How the odometry errs, where the kind is the same whatever is observed.
-std::vector<std::string> motion_keys(OdometryKind odometry) {
+std::vector<std::string> motion_keys(OdometryInput odometry) {
   switch (odometry) {
-    case OdometryKind::kWheelAngles:  // what a wheel errs is slip along the way and turning, both
+    case OdometryInput::kWheelAngles:  // what a wheel errs is slip along the way and turning, both
       return {"motion.wheel_var_m2_per_m", "motion.turn_var_rad2_per_rad"};
-    case OdometryKind::kSteering:
+    case OdometryInput::kSteering:
       return {"motion.wheel_var_m2_per_m", "motion.steer_var_rad2_m"};
-    case OdometryKind::kVelocity:
-    case OdometryKind::kOdometryPose:
+    case OdometryInput::kVelocity:
+    case OdometryInput::kOdometryPose:
       return {"motion.forward_var_m2_per_m", "motion.turn_var_rad2_per_rad", "motion.turn_var_rad2_per_m"};
-    case OdometryKind::kNone:
+    case OdometryInput::kNone:
       break;
   }
   return {};
@@ -56,8 +56,8 @@ std::vector<std::string> motion_keys(OdometryKind odometry) {
 
 std::vector<std::string> sensor_keys(Observe observe) {
   std::vector<std::string> range{"sensor.range_sigma_m", "sensor.range_sigma_ratio",
-                                 "sensor.lasting_range_sigma_ratio"};
-  std::vector<std::string> bearing{"sensor.bearing_sigma_deg", "sensor.lasting_bearing_sigma_deg"};
+                                 "sensor.bias_range_sigma_ratio"};
+  std::vector<std::string> bearing{"sensor.bearing_sigma_deg", "sensor.bias_bearing_sigma_deg"};
   switch (observe) {
     case Observe::kRangeBearing: {
       std::vector<std::string> both = range;
@@ -112,23 +112,23 @@ Result<std::vector<TuneKey>> tune_keys(const Config& config, const std::vector<s
   return keys;
 }
 
-std::string_view describe(OdometryKind kind) {
+std::string_view describe(OdometryInput kind) {
   switch (kind) {
-    case OdometryKind::kNone:
+    case OdometryInput::kNone:
       return "no odometry";
-    case OdometryKind::kWheelAngles:
+    case OdometryInput::kWheelAngles:
       return "wheel angles";
-    case OdometryKind::kVelocity:
+    case OdometryInput::kVelocity:
       return "velocities";
-    case OdometryKind::kSteering:
+    case OdometryInput::kSteering:
       return "steering";
-    case OdometryKind::kOdometryPose:
+    case OdometryInput::kOdometryPose:
       return "odometry poses";
   }
   return "";
 }
 
-std::vector<std::string> default_tune_keys(const Config& config, OdometryKind odometry) {
+std::vector<std::string> default_tune_keys(const Config& config, OdometryInput odometry) {
   Config copy = config;
   const Schema schema = describe(copy);
   std::vector<std::string> keys = motion_keys(odometry);

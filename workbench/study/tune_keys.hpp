@@ -39,12 +39,12 @@ struct TuneKey {
                                                      const std::vector<std::string>& names);
 
 /// What kind of odometry a log has.
-enum class OdometryKind { kNone, kWheelAngles, kVelocity, kSteering, kOdometryPose };
+enum class OdometryInput { kNone, kWheelAngles, kVelocity, kSteering, kOdometryPose };
 
-[[nodiscard]] std::string_view describe(OdometryKind kind);
+[[nodiscard]] std::string_view describe(OdometryInput kind);
 
 /// The noise of that odometry and of what is observed, as far as it is not 0: a part of the model that is
 /// switched off stays off.
-[[nodiscard]] std::vector<std::string> default_tune_keys(const Config& config, OdometryKind odometry);
+[[nodiscard]] std::vector<std::string> default_tune_keys(const Config& config, OdometryInput odometry);
 
 }  // namespace waymark::study

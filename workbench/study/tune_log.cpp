@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "workbench/logs/event_list.hpp"
-#include "workbench/study/sighting_score.hpp"
+#include "workbench/study/observation_score.hpp"
 
 namespace waymark::study {
 namespace {
@@ -41,8 +41,8 @@ double range_of(const Observation& observation) {
 
 double longest_range_m(const Recording& recording) {
   double longest_m = 0.0;
-  for (const auto& sighting : recording.sightings)
-    longest_m = std::max(longest_m, range_of(sighting.observation));
+  for (const auto& landmark_observation : recording.observations)
+    longest_m = std::max(longest_m, range_of(landmark_observation.observation));
   return longest_m;
 }
 
@@ -63,7 +63,7 @@ TuneInput parse_tune_input(std::string_view text) {
 
 TuneSums& TuneSums::operator+=(const TuneSums& other) {
   log_likelihood += other.log_likelihood;
-  sightings += other.sightings;
+  observations += other.observations;
   squared_error_m2 += other.squared_error_m2;
   truths += other.truths;
   return *this;
@@ -95,9 +95,9 @@ Result<void> TuneLog::survey() {
   if (!recording) return recording.error();
   if (recording->error) return Error{name_ + ": " + recording->error->message};
   const auto& innovations = recording->innovations;
-  if (innovations.empty()) return Error{name_ + ": has no sightings; there is nothing to tune by"};
-  sightings_ = innovations.size();
-  searches_pictures_ = config_.observe == Observe::kPixel && recording->counts.pictures > 0;
+  if (innovations.empty()) return Error{name_ + ": has no observations; there is nothing to tune by"};
+  observations_ = innovations.size();
+  searches_images_ = config_.observe == Observe::kPixel && recording->counts.images > 0;
   log_field_density_ = log_field_density(config_, longest_range_m(*recording));
   for (std::size_t block = 1; block < kTuneBlocks; ++block)
     block_ends_.push_back(innovations[block * innovations.size() / kTuneBlocks].stamp);
@@ -110,13 +110,13 @@ std::size_t TuneLog::block_of(Stamp stamp) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(block_ends_, stamp) - block_ends_.begin());
 }
 
-Result<Recording> TuneLog::record_with(const std::vector<std::string>& settings, bool keep_sightings,
+Result<Recording> TuneLog::record_with(const std::vector<std::string>& settings, bool keep_observations,
                                        const KeepGoing& keep_going) const {
   Config config = config_;
   Schema schema = describe(config);
   for (const auto& setting : settings)
     if (auto done = schema.set_assignment(setting, name_); !done) return done.error();
-  config.smooth.run = keep_sightings;
+  config.smooth.run = keep_observations;
   EventList source(info_, events_);
   return record(source, config, {}, [&](double) { return !keep_going || keep_going(); });
 }
@@ -126,13 +126,13 @@ std::optional<std::vector<TuneSums>> TuneLog::sums(const std::vector<std::string
   const auto recording = record_with(settings, false, keep_going);
   if (keep_going && !keep_going()) return std::nullopt;
   const bool counts =
-      recording && !recording->error && (searches_pictures_ || recording->innovations.size() == sightings_);
+      recording && !recording->error && (searches_images_ || recording->innovations.size() == observations_);
   if (!counts) return worst();
   std::vector<TuneSums> blocks(kTuneBlocks);
   for (const auto& [stamp, innovation] : recording->innovations) {
     TuneSums& block = blocks[block_of(stamp)];
     block.log_likelihood += log_likelihood(innovation, log_field_density_);
-    block.sightings += 1.0;
+    block.observations += 1.0;
   }
   add_errors(*recording, blocks);
   return blocks;

@@ -21,38 +21,39 @@ struct TuneInput {
 /// "LOG" or "LOG@key=value,key=value": several runs may lie in one place.
 [[nodiscard]] TuneInput parse_tune_input(std::string_view text);
 
-/// What several sightings, or several places of the truth, add up to.
+/// What several observations, or several places of the truth, add up to.
 struct TuneSums {
   double log_likelihood = 0.0;
-  double sightings = 0.0;
+  double observations = 0.0;
   double squared_error_m2 = 0.0;  ///< of the path under the best rigid motion
   double truths = 0.0;
 
   TuneSums& operator+=(const TuneSums& other);
 };
 
-/// Stretches of a log with as many sightings each.
+/// Stretches of a log with as many observations each.
 inline constexpr std::size_t kTuneBlocks = 20;
 
-/// A log in memory, pictures too, that is run again and again with other settings.
+/// A log in memory, images too, that is run again and again with other settings.
 class TuneLog {
  public:
   /// Reads it, and runs it once as it is configured. Refused: what cannot be read or run to its end, and a
-  /// log without sightings.
+  /// log without observations.
   [[nodiscard]] static Result<TuneLog> open(const std::string& name, UserSettings user);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Config& config() const { return config_; }
   [[nodiscard]] OdometryKind odometry() const { return odometry_; }
-  [[nodiscard]] std::size_t sightings() const { return sightings_; }
+  [[nodiscard]] std::size_t observations() const { return observations_; }
   [[nodiscard]] bool has_truth() const { return !truth_.empty(); }
   /// What the filter looks for, and so what it sees, depends on its settings.
-  [[nodiscard]] bool searches_pictures() const { return searches_pictures_; }
+  [[nodiscard]] bool searches_images() const { return searches_images_; }
 
   using KeepGoing = std::function<bool()>;
 
   /// One run with these settings on top of the log's own; scored by block. Nothing if `keep_going` said no. A
-  /// run that breaks down scores as if all of its sightings were outliers. Safe to call from several threads.
+  /// run that breaks down scores as if all of its observations were outliers. Safe to call from several
+  /// threads.
   [[nodiscard]] std::optional<std::vector<TuneSums>> sums(const std::vector<std::string>& settings,
                                                           const KeepGoing& keep_going) const;
 
@@ -64,8 +65,8 @@ class TuneLog {
   TuneLog() = default;
 
   [[nodiscard]] Result<void> survey();
-  [[nodiscard]] Result<Recording> record_with(const std::vector<std::string>& settings, bool keep_sightings,
-                                              const KeepGoing& keep_going) const;
+  [[nodiscard]] Result<Recording> record_with(const std::vector<std::string>& settings,
+                                              bool keep_observations, const KeepGoing& keep_going) const;
   [[nodiscard]] std::size_t block_of(Stamp stamp) const;
   void add_errors(const Recording& recording, std::vector<TuneSums>& blocks) const;
   [[nodiscard]] std::vector<TuneSums> worst() const;
@@ -76,11 +77,11 @@ class TuneLog {
   std::vector<Event> events_;
   OdometryKind odometry_ = OdometryKind::kNone;
   eval::TruthTrack truth_;
-  std::size_t sightings_ = 0;
-  bool searches_pictures_ = false;
+  std::size_t observations_ = 0;
+  bool searches_images_ = false;
   double log_field_density_ = 0.0;
   std::vector<Stamp> block_ends_;          // of all blocks but the last
-  std::vector<std::size_t> block_counts_;  // sightings in them
+  std::vector<std::size_t> block_counts_;  // observations in them
 };
 
 }  // namespace waymark::study

@@ -32,11 +32,11 @@ std::string value_of(const Config& config, const std::string& key) {
 std::vector<bool> find_idle(const TuneProblem& problem, int threads) {
   const TunePoint start = problem.start();
   std::vector<TuneScore> scores(start.size() + 1);
-  ThreadTeam(threads).run(static_cast<int>(scores.size()), [&](int i) {
+  ThreadPool(threads).run(static_cast<int>(scores.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
     TunePoint at = start;
     if (k < at.size()) at[k] += kProbe * problem.keys()[k].first_step();
-    ThreadTeam alone(1);
+    ThreadPool alone(1);
     scores[k] = problem.score(at, {}, {}, alone).value_or(TuneScore{});
   });
   std::vector<bool> idle;
@@ -76,11 +76,11 @@ Result<void> TuneProblem::check_logs() const {
                                value_of(log.config(), "observe"))};
     if (by_ == TuneBy::kRmse && !log.has_truth())
       return Error{fmt::format("--by rmse: {} has no ground truth; tune by likelihood", log.name())};
-    if (by_ == TuneBy::kLikelihood && log.searches_pictures())
-      return Error{fmt::format(
-          "--by likelihood: in the pictures of {} other corners are found with other settings, so "
-          "likelihoods do not compare; where there is truth tune --by rmse",
-          log.name())};
+    if (by_ == TuneBy::kLikelihood && log.searches_images())
+      return Error{
+          fmt::format("--by likelihood: in the images of {} other corners are found with other settings, so "
+                      "likelihoods do not compare; where there is truth tune --by rmse",
+                      log.name())};
   }
   return {};
 }
@@ -93,11 +93,11 @@ Result<void> TuneProblem::choose_keys(const TuneRequest& request) {
   if (!keys) return keys.error();
   keys_ = *std::move(keys);
   if (auto checked = check_starts(); !checked) return checked;
-  std::size_t sightings = 0;
-  for (const TuneLog& log : logs_) sightings += log.sightings();
-  if (sightings < keys_.size())
-    return Error{fmt::format("{} sightings are too few to tune {} keys by; name fewer with --keys", sightings,
-                             keys_.size())};
+  std::size_t observations = 0;
+  for (const TuneLog& log : logs_) observations += log.observations();
+  if (observations < keys_.size())
+    return Error{fmt::format("{} observations are too few to tune {} keys by; name fewer with --keys",
+                             observations, keys_.size())};
   const auto idle = find_idle(*this, request.threads);
   std::vector<TuneKey> working;
   for (std::size_t k = 0; k < keys_.size(); ++k) {
@@ -138,7 +138,7 @@ std::string TuneProblem::fold_name(std::size_t fold) const {
   if (logs_.size() > 1) return logs_[fold].name();
   constexpr double kPercent = 100.0 / kFoldsOfOneLog;
   const auto begin = static_cast<double>(fold);
-  return fmt::format("{:.0f} to {:.0f} % of the sightings", kPercent * begin, kPercent * (begin + 1.0));
+  return fmt::format("{:.0f} to {:.0f} % of the observations", kPercent * begin, kPercent * (begin + 1.0));
 }
 
 std::size_t TuneProblem::fold_of(std::size_t log, std::size_t block) const {
@@ -146,10 +146,11 @@ std::size_t TuneProblem::fold_of(std::size_t log, std::size_t block) const {
 }
 
 std::optional<TuneScore> TuneProblem::score(const TunePoint& at, std::optional<std::size_t> without,
-                                            const TuneLog::KeepGoing& keep_going, ThreadTeam& team) const {
+                                            const TuneLog::KeepGoing& keep_going,
+                                            ThreadPool& thread_pool) const {
   const auto settings = assignments(keys_, at);
   std::vector<std::optional<std::vector<TuneSums>>> sums(logs_.size());
-  team.run(static_cast<int>(logs_.size()), [&](int i) {
+  thread_pool.run(static_cast<int>(logs_.size()), [&](int i) {
     const auto log = static_cast<std::size_t>(i);
     const bool left_out = logs_.size() > 1 && without == log;
     sums[log] = left_out ? std::vector<TuneSums>{} : logs_[log].sums(settings, keep_going);
@@ -188,7 +189,7 @@ double TuneProblem::value(const TuneSums& sums) const {
 }
 
 double TuneProblem::figure(const TuneSums& sums) const {
-  const double count = by_ == TuneBy::kLikelihood ? sums.sightings : sums.truths;
+  const double count = by_ == TuneBy::kLikelihood ? sums.observations : sums.truths;
   if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
   return by_ == TuneBy::kLikelihood ? sums.log_likelihood / count : std::sqrt(sums.squared_error_m2 / count);
 }

@@ -14,7 +14,7 @@ namespace waymark::study {
 
 /// What is to be as good as can be.
 enum class TuneBy {
-  kLikelihood,  ///< of all sightings, each as the filter foretold it
+  kLikelihood,  ///< of all observations, each as the filter foretold it
   kRmse         ///< of the path against the truth under the best rigid motion
 };
 
@@ -39,8 +39,8 @@ using TuneScore = std::vector<std::vector<TuneSums>>;
 class TuneProblem {
  public:
   /// Opens logs and keys. Refused: logs of different odometry or observations, or that have different values
-  /// of a key; keys that make no difference, where the user has chosen them; fewer sightings than keys; no
-  /// truth to tune by, or pictures that are searched for what the filter expects, whose number of sightings
+  /// of a key; keys that make no difference, where the user has chosen them; fewer observations than keys; no
+  /// truth to tune by, or images that are searched for what the filter expects, whose number of observations
   /// would differ.
   [[nodiscard]] static Result<TuneProblem> open(const TuneRequest& request);
 
@@ -56,7 +56,8 @@ class TuneProblem {
 
   /// Runs the logs that `without`, a fold, leaves. Nothing if `keep_going` said no.
   [[nodiscard]] std::optional<TuneScore> score(const TunePoint& at, std::optional<std::size_t> without,
-                                               const TuneLog::KeepGoing& keep_going, ThreadTeam& team) const;
+                                               const TuneLog::KeepGoing& keep_going,
+                                               ThreadPool& thread_pool) const;
 
   /// The sums over everything but a fold, or over it alone.
   [[nodiscard]] TuneSums total(const TuneScore& score) const;
@@ -65,7 +66,7 @@ class TuneProblem {
 
   /// What is maximised: the log-likelihood, or -100 ln RMSE, so that one unit is a percent of it.
   [[nodiscard]] double value(const TuneSums& sums) const;
-  /// For people: log-likelihood per sighting, or RMSE in m. NaN where there is nothing.
+  /// For people: log-likelihood per observation, or RMSE in m. NaN where there is nothing.
   [[nodiscard]] double figure(const TuneSums& sums) const;
 
  private:

@@ -30,7 +30,7 @@ std::string interval_text(const TunedKey& key) {
 }
 
 std::string score_name(TuneBy by) {
-  return by == TuneBy::kLikelihood ? "log-likelihood per sighting" : "aligned position RMSE, m";
+  return by == TuneBy::kLikelihood ? "log-likelihood per observation" : "aligned position RMSE, m";
 }
 
 static std::string scores_text(const TuneResult& result) {
@@ -42,7 +42,7 @@ std::string to_yaml(const TuneResult& result) {
   for (const TunedKey& key : result.keys) keys.push_back(&key);
   const auto section_of = [](const TunedKey* key) { return key->name.substr(0, key->name.find('.') + 1); };
   std::ranges::stable_sort(keys, {}, section_of);
-  std::string yaml = fmt::format("# Tuned over {} sightings; ", result.sightings) +
+  std::string yaml = fmt::format("# Tuned over {} observations; ", result.observations) +
                      (result.stopped ? "stopped before the end.\n" : scores_text(result));
   std::string section;
   for (const TunedKey* key : keys) {
@@ -67,7 +67,7 @@ std::string to_text(const TuneResult& result) {
                         tuned_text(key.after), interval_text(key));
   if (!result.stopped) text += scores_text(result);
   if (!result.held_out.empty()) text += "the same where it was left out of the fit:\n";
-  for (const HeldOut& part : result.held_out)
+  for (const HeldOutLog& part : result.held_out)
     text += fmt::format("  {:<40}{:>9.4g}{:>9.4g}\n", part.name, part.before, part.after);
   for (const TunedLog& log : result.logs)
     text += fmt::format("{}: NIS per dof {}, path RMSE anchored {} m, aligned {} m, NEES {}\n", log.name,

@@ -59,7 +59,7 @@ class BusyCore {
       [] {});
 };
 
-/// Minutes of pictures by the clock, with every frame that took longer than it may.
+/// Minutes of images by the clock, with every frame that took longer than it may.
 Result<void> keep_to_the_clock(const BudgetRequest& request) {
   constexpr double kShortestLap_s = 40.0;
   const int laps = static_cast<int>(std::ceil(60.0 * request.minutes / kShortestLap_s));
@@ -71,9 +71,9 @@ Result<void> keep_to_the_clock(const BudgetRequest& request) {
   const auto recording = record(*opened->source, opened->config, {.to_s = 60.0 * request.minutes});
   if (!recording) return recording.error();
   const StepTimes times = step_times(recording->steps);
-  fmt::print("{} pictures with {} ms each by the clock, another core busy: {} took longer\n",
-             recording->counts.pictures, request.budget_ms, deadline_misses(*recording));
-  fmt::print("thread CPU per picture, ms: p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, largest {:.3f}\n",
+  fmt::print("{} images with {} ms each by the clock, another core busy: {} took longer\n",
+             recording->counts.images, request.budget_ms, deadline_misses(*recording));
+  fmt::print("thread CPU per image, ms: p50 {:.3f}, p99 {:.3f}, p99.9 {:.3f}, largest {:.3f}\n",
              1e-3 * times.p50_us, 1e-3 * times.p99_us, 1e-3 * times.p999_us, 1e-3 * times.max_us);
   for (const auto& note : recording->notes) fmt::print("  note: {}\n", note);
   return {};
@@ -100,7 +100,7 @@ Result<Drive> render(const BudgetRequest& request, int seed) {
 
 struct BudgetRun {
   double rmse_m = NAN;
-  double hurried = NAN;  ///< part of the pictures in which something was left out
+  double hurried = NAN;  ///< part of the images in which something was left out
 };
 
 BudgetRun run(const Drive& drive, double budget_ms) {
@@ -114,10 +114,10 @@ BudgetRun run(const Drive& drive, double budget_ms) {
   const auto score = eval::score_path(recording->trajectory, eval::TruthTrack(std::move(truth)));
   const vision::TrackerCounts& counts = recording->tracker;
   return {score.position_rmse_m.value_or(NAN),
-          static_cast<double>(counts.out_of_budget) / static_cast<double>(counts.pictures)};
+          static_cast<double>(counts.out_of_budget) / static_cast<double>(counts.images)};
 }
 
-/// The least work per picture with which nothing is left out in 99 of 100 pictures, to a twentieth.
+/// The least work per image with which nothing is left out in 99 of 100 images, to a twentieth.
 double wanted_ms(const Drive& drive) {
   double low_ms = 0.01;
   double high_ms = 100.0;
@@ -164,12 +164,11 @@ int budget(const BudgetRequest& request) {
 }  // namespace
 
 void add_budget(CLI::App& app, int& status) {
-  auto* command =
-      app.add_subcommand("budget", "pictures against the clock, and with less time than they want");
+  auto* command = app.add_subcommand("budget", "images against the clock, and with less time than they want");
   auto request = std::make_shared<BudgetRequest>();
-  command->add_option("--minutes", request->minutes, "of pictures against the clock")
+  command->add_option("--minutes", request->minutes, "of images against the clock")
       ->check(CLI::PositiveNumber);
-  command->add_option("--budget-ms", request->budget_ms, "of a picture")->check(CLI::PositiveNumber);
+  command->add_option("--budget-ms", request->budget_ms, "of an image")->check(CLI::PositiveNumber);
   command->add_option("--seeds", request->seeds, "of runs with less time")->check(CLI::PositiveNumber);
   command->add_option("--set", request->settings, "config key=value")->allow_extra_args(false);
   command->callback([request, &status] { status = budget(*request); });

@@ -103,20 +103,20 @@ double milliseconds(Duration d) { return 1e3 * to_seconds(d); }
 struct Cost {
   std::vector<double> frames_ms;
   double mean_ms = 0.0;
-  double sightings = 0.0;  // in a frame
+  double observations = 0.0;  // in a frame
   int landmarks = 0;
-  int regions = 0;
+  int submaps = 0;
 };
 
 Cost measure(int landmarks, Compress compressed, int steps, int threads) {
   Field field(landmarks);
   EkfSlam filter({.capacity = landmarks, .compressed = compressed}, {}, threads);
   while (!field.mapped()) advance(filter, field.next());
-  const int regions_before = filter.state().closed_regions();
+  const int submaps_before = filter.state().closed_submaps();
   Cost cost;
   for (int i = 0; i < steps; ++i) {
     const Look frame = field.next();
-    cost.sightings += static_cast<double>(frame.scan.size()) / steps;
+    cost.observations += static_cast<double>(frame.scan.size()) / steps;
     const Duration before = thread_cpu_time();
     advance(filter, frame);
     cost.frames_ms.push_back(milliseconds(thread_cpu_time() - before));
@@ -124,7 +124,7 @@ Cost measure(int landmarks, Compress compressed, int steps, int threads) {
   cost.mean_ms = std::reduce(cost.frames_ms.begin(), cost.frames_ms.end()) / steps;
   std::ranges::sort(cost.frames_ms);
   cost.landmarks = filter.state().landmarks();
-  cost.regions = filter.state().closed_regions() - regions_before;
+  cost.submaps = filter.state().closed_submaps() - submaps_before;
   return cost;
 }
 
@@ -133,15 +133,15 @@ void print(const char* name, const Cost& cost) {
     return cost.frames_ms[static_cast<std::size_t>(q * static_cast<double>(cost.frames_ms.size() - 1))];
   };
   fmt::print("{:<12}{:>10}{:>10}{:>10.1f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, cost.landmarks,
-             cost.regions, cost.sightings, cost.mean_ms, quantile(0.5), quantile(0.99), quantile(1.0));
+             cost.submaps, cost.observations, cost.mean_ms, quantile(0.5), quantile(0.99), quantile(1.0));
 }
 
 double pose_nees(const Pose2& truth, const PoseEstimate& pose) {
   return mahalanobis_squared<3>(difference(truth, pose.T_world_robot), pose.covariance).value_or(NAN);
 }
 
-/// The same drive with and without compression, or else without and with the sightings in reverse order: what
-/// rounding alone makes of it.
+/// The same drive with and without compression, or else without and with the observations in reverse order:
+/// what rounding alone makes of it.
 void compare(const char* name, ekf::Consistency consistency, Compress compressed, int landmarks, int steps,
              int threads) {
   Field field(landmarks);
@@ -171,7 +171,7 @@ void compare(const char* name, ekf::Consistency consistency, Compress compressed
     sigma = std::max(sigma, gap_m.norm() / std::sqrt(a.covariance.topLeftCorner<2, 2>().trace() + 1e-12));
   }
   fmt::print("{:<20}{:>10}{:>10.2f}{:>10.2f}{:>12.2e}{:>12.2e}{:>12.2e}", name,
-             local.state().closed_regions(), nees_local, nees, position_m, heading_rad, sigma);
+             local.state().closed_submaps(), nees_local, nees, position_m, heading_rad, sigma);
   if (compressed == Compress::kNever) return fmt::print("\n");
   const MapState map = whole.save();
   const MapState map_local = local.save();
@@ -186,14 +186,14 @@ int compressed(int landmarks, int steps, int threads) {
   const int third = landmarks / 3;
   fmt::print("compressed EKF: thread CPU per frame in ms over {} frames through a mapped field, {} threads\n",
              steps, threads);
-  fmt::print("{:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "compressed", "landmarks", "regions",
+  fmt::print("{:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "compressed", "landmarks", "submaps",
              "seen", "mean", "p50", "p99", "max");
   for (const int mapped : {landmarks / 30, third, landmarks})
     print("true", measure(mapped, Compress::kAlways, steps, threads));
   print("false", measure(third, Compress::kNever, std::min(steps, 500), threads));
   fmt::print("\nlargest difference from the whole filter, {} landmarks mapped and crossed for {} frames\n",
              third, steps);
-  fmt::print("{:<20}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "mode", "regions", "NEES", "whole",
+  fmt::print("{:<20}{:>10}{:>10}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "mode", "submaps", "NEES", "whole",
              "position m", "heading", "of sigma", "map m", "covariance");
   using ekf::Consistency;
   compare("standard", Consistency::kStandard, Compress::kAlways, third, steps, threads);

@@ -19,7 +19,7 @@ constexpr double kRadius_m = 7.5;
 constexpr double kStepsPerLoop = 200.0;
 constexpr double kSensorRange_m = 8.0;
 /// Near landmarks change their direction so fast that the first estimates of FEJ serve them badly.
-constexpr double kLeastOffset_m = 1.5;
+constexpr double kMinOffset_m = 1.5;
 constexpr double kLargestOffset_m = 4.0;
 
 class World {
@@ -29,7 +29,7 @@ class World {
         random_(options.seed, StreamPurpose::kSimulation, static_cast<std::uint64_t>(run)) {
     for (int i = 0; i < options.landmarks; ++i) {
       const double side = random_.uniform() < 0.5 ? -1.0 : 1.0;
-      const double radius_m = kRadius_m + side * random_.uniform(kLeastOffset_m, kLargestOffset_m);
+      const double radius_m = kRadius_m + side * random_.uniform(kMinOffset_m, kLargestOffset_m);
       const double angle_rad = random_.uniform(-kPi, kPi);
       landmarks_.emplace_back(kCentre + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
     }
@@ -98,7 +98,7 @@ Run run_once(ekf::Consistency mode, const ConsistencyOptions& options, int numbe
 
 ConsistencyResult study_consistency(ekf::Consistency mode, const ConsistencyOptions& options, int threads) {
   std::vector<Run> runs(static_cast<std::size_t>(options.runs));
-  ThreadTeam(threads).run(options.runs,
+  ThreadPool(threads).run(options.runs,
                           [&](int i) { runs[static_cast<std::size_t>(i)] = run_once(mode, options, i); });
   ConsistencyResult result;
   const double n = options.runs;

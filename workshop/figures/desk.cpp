@@ -30,9 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAgreement_px = 1.5;
-constexpr int kTrail = 15;     // pictures over which a place is drawn
-constexpr int kLongLife = 30;  // pictures: one second
+constexpr double kConsensus_px = 1.5;
+constexpr int kTrail = 15;     // images over which a place is drawn
+constexpr int kLongLife = 30;  // images: one second
 
 struct DeskRequest {
   std::string folder;
@@ -40,42 +40,42 @@ struct DeskRequest {
   int frames = 100000;
 };
 
-/// A patch, turned and scaled as the pictures were since it was cut, and where it has been.
+/// A patch, turned and scaled as the images were since it was cut, and where it has been.
 struct Followed {
   vision::Appearance appearance;
-  std::vector<Eigen::Vector2d> places;              ///< picture by picture
-  std::size_t cut_in = 0;                           ///< number of the first picture
+  std::vector<Eigen::Vector2d> places;              ///< image by image
+  std::size_t cut_in = 0;                           ///< number of the first image
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< d(pixel now)/d(pixel then)
   bool ended = false;
-  bool left = false;  ///< the picture, so that it could not be found
+  bool left = false;  ///< the image, so that it could not be found
 };
 
-/// What one picture showed.
+/// What one image showed.
 struct Frame {
   std::size_t corners = 0;
   std::size_t sought = 0;
   std::size_t found = 0;
   std::size_t agreeing = 0;
-  std::size_t young = 0;         ///< sought that were cut in the picture before
+  std::size_t young = 0;         ///< sought that were cut in the image before
   std::size_t young_found = 0;   ///< of those
-  Duration all_corners_took{0};  ///< of the whole picture
+  Duration all_corners_took{0};  ///< of the whole image
   Duration new_corners_took{0};  ///< of the cells where some are wanted, as the tracker looks
   Duration matching_took{0};
 };
 
-/// Follows patches from picture to picture by the motion that they had before.
+/// Follows patches from image to image by the motion that they had before.
 class Follower {
  public:
   Follower(int width_px, int height_px)
       : finder_(desk_finder(width_px, height_px)), new_corners_(desk_corners(width_px, height_px)) {}
 
-  void see(const GreyImage& picture) {
+  void see(const GreyImage& image) {
     Frame& frame = frames_.emplace_back();
     const Duration start = thread_cpu_time();
-    frame.corners = detector_.detect(picture).size();
+    frame.corners = detector_.detect(image).size();
     frame.all_corners_took = thread_cpu_time() - start;
-    judge(follow(picture, frame), frame);
-    cut_new(picture, frame);
+    judge(follow(image, frame), frame);
+    cut_new(image, frame);
   }
 
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
@@ -83,15 +83,15 @@ class Follower {
 
  private:
   /// Those that were found.
-  std::vector<Followed*> follow(const GreyImage& picture, Frame& frame) {
+  std::vector<Followed*> follow(const GreyImage& image, Frame& frame) {
     std::vector<Followed*> found;
     const Duration start = thread_cpu_time();
     for (Followed& each : patches_) {
       if (each.ended) continue;
       const bool is_young = each.places.size() == 1;
-      const vision::Finding finding = look_for(each, picture);
-      each.ended = finding.result != vision::Look::Result::kFound;
-      each.left = finding.result == vision::Look::Result::kNotTried;
+      const vision::SearchResult finding = search_for(each, image);
+      each.ended = finding.result != vision::SearchRecord::Result::kFound;
+      each.left = finding.result == vision::SearchRecord::Result::kNotTried;
       if (each.left) continue;
       ++frame.sought;
       frame.young += is_young;
@@ -105,12 +105,13 @@ class Follower {
     return found;
   }
 
-  vision::Finding look_for(Followed& each, const GreyImage& picture) {
+  vision::SearchResult search_for(Followed& each, const GreyImage& image) {
     const std::size_t n = each.places.size();
     const Eigen::Vector2d motion = n > 1 ? each.places[n - 1] - each.places[n - 2] : motion_;
     static_cast<void>(each.appearance.patch.seen_under(each.A));
-    return finder_.look_for({.predicted_px = each.places.back() + motion, .S = desk_prediction_covariance()},
-                            picture, {}, each.appearance);
+    return finder_.search_for(
+        {.predicted_px = each.places.back() + motion, .S = desk_prediction_covariance()}, image, {},
+        each.appearance);
   }
 
   void judge(const std::vector<Followed*>& found, Frame& frame) {
@@ -122,22 +123,22 @@ class Follower {
       du.push_back(pairs.back().to.x() - pairs.back().from.x());
       dv.push_back(pairs.back().to.y() - pairs.back().from.y());
     }
-    const Consensus consensus = find_homography(pairs, kAgreement_px);
+    const Consensus consensus = find_homography(pairs, kConsensus_px);
     for (std::size_t i = 0; i < found.size(); ++i)
       found[i]->A = consensus.derivative(pairs[i].from) * found[i]->A;
     frame.agreeing = consensus.size();
     motion_ = {eval::median(du).value_or(0.0), eval::median(dv).value_or(0.0)};
   }
 
-  void cut_new(const GreyImage& picture, Frame& frame) {
+  void cut_new(const GreyImage& image, Frame& frame) {
     std::vector<Eigen::Vector2d> places;
     for (const Followed& each : patches_)
       if (!each.ended) places.push_back(each.places.back());
     const Duration start = thread_cpu_time();
-    const auto corners = find_more(new_corners_, picture, places);
+    const auto corners = find_more(new_corners_, image, places);
     frame.new_corners_took = thread_cpu_time() - start;
     for (const vision::Corner& corner : corners)
-      if (const auto patch = vision::cut_reference(picture, corner.u, corner.v))
+      if (const auto patch = vision::cut_reference(image, corner.u, corner.v))
         patches_.push_back({.appearance = {.seen_from = {}, .patch = {*patch, kDeskPatch_px}},
                             .places = {Eigen::Vector2d(corner.u, corner.v)},
                             .cut_in = frames_.size() - 1});
@@ -148,7 +149,7 @@ class Follower {
   vision::NewCorners new_corners_;
   std::vector<Frame> frames_;
   std::vector<Followed> patches_;
-  Eigen::Vector2d motion_ = Eigen::Vector2d::Zero();  ///< of the picture as a whole
+  Eigen::Vector2d motion_ = Eigen::Vector2d::Zero();  ///< of the image as a whole
 };
 
 std::size_t total(const std::vector<Frame>& frames, std::size_t Frame::*member) {
@@ -167,14 +168,14 @@ double percent(std::size_t part, std::size_t all) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Of the patches that could be followed for so long, since they neither left the picture before nor did the
-/// pictures end, those that were.
-double lived_percent(const Follower& follower, std::size_t pictures) {
+/// Of the patches that could be followed for so long, since they neither left the image before nor did the
+/// images end, those that were.
+double lived_percent(const Follower& follower, std::size_t images) {
   std::size_t able = 0;
   std::size_t did = 0;
   for (const Followed& each : follower.patches()) {
-    const bool did_live = each.places.size() >= pictures;
-    const bool was_cut_short = each.left || each.cut_in + pictures > follower.frames().size();
+    const bool did_live = each.places.size() >= images;
+    const bool was_cut_short = each.left || each.cut_in + images > follower.frames().size();
     able += did_live || !was_cut_short;
     did += did_live;
   }
@@ -197,15 +198,15 @@ void print(const Follower& follower) {
   std::vector<double> corners;
   for (const Frame& frame : frames) corners.push_back(static_cast<double>(frame.corners));
   const std::size_t found = total(frames, &Frame::found);
-  fmt::print("{} pictures, {} patches; FAST-12 corners per picture, median {:.0f}\n", frames.size(),
+  fmt::print("{} images, {} patches; FAST-12 corners per image, median {:.0f}\n", frames.size(),
              follower.patches().size(), eval::median(corners).value_or(NAN));
-  fmt::print("found in the picture after: {:.1f} % of {} new patches, {:.1f} % of all {} looked for\n",
+  fmt::print("found in the image after: {:.1f} % of {} new patches, {:.1f} % of all {} looked for\n",
              percent(total(frames, &Frame::young_found), total(frames, &Frame::young)),
              total(frames, &Frame::young), percent(found, total(frames, &Frame::sought)),
              total(frames, &Frame::sought));
-  fmt::print("within {} px of one homography from picture to picture: {:.1f} % of those found\n",
-             kAgreement_px, percent(total(frames, &Frame::agreeing), found));
-  fmt::print("followed without a gap: median {:.0f} pictures; {:.0f} % for {} or more, {:.0f} % for {}\n",
+  fmt::print("within {} px of one homography from image to image: {:.1f} % of those found\n", kConsensus_px,
+             percent(total(frames, &Frame::agreeing), found));
+  fmt::print("followed without a gap: median {:.0f} images; {:.0f} % for {} or more, {:.0f} % for {}\n",
              median_life(follower), lived_percent(follower, kLongLife), kLongLife,
              lived_percent(follower, 3 * kLongLife), 3 * kLongLife);
   Duration matching{0};
@@ -213,25 +214,24 @@ void print(const Follower& follower) {
   const double per_search_us =
       1e6 * to_seconds(matching) / static_cast<double>(total(frames, &Frame::sought));
   const double windows = vision::Search().expected_windows(desk_prediction_covariance());
-  fmt::print("\n{:<44}{:>10}{:>12}{:>10}\n", "thread CPU per picture, median, us", "here", "article",
-             "times");
-  print_block("FB2 corners, whole picture", median_us(frames, &Frame::all_corners_took), "FB2");
+  fmt::print("\n{:<44}{:>10}{:>12}{:>10}\n", "thread CPU per image, median, us", "here", "article", "times");
+  print_block("FB2 corners, whole image", median_us(frames, &Frame::all_corners_took), "FB2");
   print_block("FB2 corners, cells where they are wanted", median_us(frames, &Frame::new_corners_took), "FB2");
   print_block("FB4 match", median_us(frames, &Frame::matching_took), "FB4");
   fmt::print(
       "FB4: {:.1f} us for one patch with its peak, {:.4f} us for one of its {:.0f} windows; article {} us "
       "for "
-      "one of {:.0f} a picture\n",
+      "one of {:.0f} an image\n",
       per_search_us, per_search_us / windows, windows, article_time("FB4")->per_call_us,
       article_time("FB4")->calls_per_frame);
 }
 
-/// The picture, and the patches in it with the way that they have come.
-Result<std::string> draw_trails(const Follower& follower, std::size_t number, const GreyImage& picture) {
-  const auto png = encode_png(picture.view());
+/// The image, and the patches in it with the way that they have come.
+Result<std::string> draw_trails(const Follower& follower, std::size_t number, const GreyImage& image) {
+  const auto png = encode_png(image.view());
   if (!png) return png.error();
   std::string svg = fmt::format("<image width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
-                                picture.width_px(), picture.height_px(), base64(*png));
+                                image.width_px(), image.height_px(), base64(*png));
   for (const Followed& each : follower.patches()) {
     if (each.cut_in > number || each.cut_in + each.places.size() <= number) continue;
     const std::size_t last = number - each.cut_in;
@@ -252,11 +252,11 @@ std::vector<double> series(const std::vector<Frame>& frames, double (*value)(con
   return values;
 }
 
-/// Patches that lived for 1, 2, ... pictures or more, in percent of those that could have.
+/// Patches that lived for 1, 2, ... images or more, in percent of those that could have.
 std::vector<double> survival(const Follower& follower) {
   std::vector<double> percents;
-  for (std::size_t pictures = 1; 2 * pictures <= follower.frames().size(); ++pictures)
-    percents.push_back(lived_percent(follower, pictures));
+  for (std::size_t images = 1; 2 * images <= follower.frames().size(); ++images)
+    percents.push_back(lived_percent(follower, images));
   return percents;
 }
 
@@ -269,13 +269,13 @@ Result<std::string> draw(const Follower& follower, const std::vector<fs::path>& 
       "font-size=\"12\">\n<rect width=\"1020\" height=\"680\" fill=\"white\"/>\n";
   for (int panel = 0; panel < kPanels; ++panel) {
     const std::size_t number = (2 * static_cast<std::size_t>(panel) + 1) * frames.size() / (2 * kPanels);
-    const auto picture = read_image(files[number]);
-    if (!picture) return picture.error();
-    const auto trails = draw_trails(follower, number, *picture);
+    const auto image = read_image(files[number]);
+    if (!image) return image.error();
+    const auto trails = draw_trails(follower, number, *image);
     if (!trails) return trails.error();
-    svg += fmt::format(
-        "<g transform=\"translate({},10)\">{}<text y=\"256\" fill=\"#222\">picture {}</text></g>\n",
-        10 + panel * kWidth, *trails, number);
+    svg +=
+        fmt::format("<g transform=\"translate({},10)\">{}<text y=\"256\" fill=\"#222\">image {}</text></g>\n",
+                    10 + panel * kWidth, *trails, number);
   }
   const std::vector<LineChart> charts{
       {"FAST-12 corners", series(frames, [](const Frame& f) { return static_cast<double>(f.corners); })},
@@ -284,7 +284,7 @@ Result<std::string> draw(const Follower& follower, const std::vector<fs::path>& 
        series(frames, [](const Frame& f) { return f.sought > 0 ? percent(f.found, f.sought) : 100.0; })},
       {"within 1.5 px of one homography, % of those found",
        series(frames, [](const Frame& f) { return f.found > 0 ? percent(f.agreeing, f.found) : 100.0; })},
-      {"followed for so many pictures or more, %", survival(follower)},
+      {"followed for so many images or more, %", survival(follower)},
       {"FB4 match, us", series(frames, [](const Frame& f) { return 1e6 * to_seconds(f.matching_took); })}};
   for (std::size_t k = 0; k < charts.size(); ++k)
     svg += fmt::format("<g transform=\"translate({},{})\">{}</g>\n", 10 + static_cast<int>(k % 3) * kWidth,
@@ -293,17 +293,17 @@ Result<std::string> draw(const Follower& follower, const std::vector<fs::path>& 
 }
 
 Result<void> follow_over(const DeskRequest& request) {
-  auto files = desk_pictures(request.folder);
+  auto files = desk_images(request.folder);
   if (!files) return files.error();
   files->resize(std::min(files->size(), static_cast<std::size_t>(request.frames)));
   std::optional<Follower> follower;
   std::optional<ImageSize> size;
   for (const fs::path& file : *files) {
-    const auto picture = read_image(file, size);
-    if (!picture) return picture.error();
-    size = {picture->width_px(), picture->height_px()};
+    const auto image = read_image(file, size);
+    if (!image) return image.error();
+    size = {image->width_px(), image->height_px()};
     if (!follower) follower.emplace(size->width_px, size->height_px);
-    follower->see(*picture);
+    follower->see(*image);
   }
   print(*follower);
   if (request.drawing.empty()) return {};
@@ -320,9 +320,9 @@ int desk(const DeskRequest& request) {
 }  // namespace
 
 void add_desk(CLI::App& app, int& status) {
-  auto* command = app.add_subcommand("desk", "corners and patches in pictures of a hand-held camera");
+  auto* command = app.add_subcommand("desk", "corners and patches in images of a hand-held camera");
   auto request = std::make_shared<DeskRequest>();
-  command->add_option("folder", request->folder, "monoslam-desk: a folder with pictures in frames/")
+  command->add_option("folder", request->folder, "monoslam-desk: a folder with images in frames/")
       ->required();
   command->add_option("--frames", request->frames, "use so many")->check(CLI::Range(2, 100000));
   command->add_option("-o,--output", request->drawing, "draw it as well")->type_name("FILE.svg");

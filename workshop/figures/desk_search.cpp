@@ -17,14 +17,14 @@ constexpr double kAcceptRatio = 4.0;
 
 }  // namespace
 
-Result<std::vector<fs::path>> desk_pictures(const std::string& folder) {
+Result<std::vector<fs::path>> desk_images(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(fs::path(folder) / "frames", failed))
     files.push_back(entry.path());
   std::ranges::sort(files);
   if (files.size() < 2)
-    return Error{fmt::format("{}: expected pictures in its folder frames/, found {}", folder, files.size())};
+    return Error{fmt::format("{}: expected images in its folder frames/, found {}", folder, files.size())};
   return files;
 }
 
@@ -39,14 +39,14 @@ vision::LandmarkFinder desk_finder(int width_px, int height_px) {
 }
 
 vision::NewCorners desk_corners(int width_px, int height_px) {
-  return {{.wanted = 40, .most_new = 12}, {}, kDeskPatch_px, width_px, height_px};
+  return {{.wanted = 40, .max_new = 12}, {}, kDeskPatch_px, width_px, height_px};
 }
 
-std::vector<vision::Corner> find_more(vision::NewCorners& corners, const GreyImage& picture,
+std::vector<vision::Corner> find_more(vision::NewCorners& corners, const GreyImage& image,
                                       const std::vector<Eigen::Vector2d>& taken) {
   vision::FrameBudget budget(vision::BudgetKind::kWork);
   budget.start(std::chrono::seconds(1));
-  const auto found = corners.find(picture, taken, 0, budget);
+  const auto found = corners.find(image, taken, 0, budget);
   return {found.begin(), found.end()};
 }
 

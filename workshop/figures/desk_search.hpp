@@ -13,11 +13,11 @@
 
 namespace waymark {
 
-/// Side of the patches that are followed through the pictures of the desk.
+/// Side of the patches that are followed through the images of the desk.
 inline constexpr int kDeskPatch_px = 16;
 
-/// The desk's pictures in order. The error says what the folder lacks.
-[[nodiscard]] Result<std::vector<std::filesystem::path>> desk_pictures(const std::string& folder);
+/// The desk's images in order. The error says what the folder lacks.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> desk_images(const std::string& folder);
 
 /// Of a place that its last motion predicts.
 [[nodiscard]] Eigen::Matrix2d desk_prediction_covariance();
@@ -28,8 +28,8 @@ inline constexpr int kDeskPatch_px = 16;
 /// As many new corners as a follower takes.
 [[nodiscard]] vision::NewCorners desk_corners(int width_px, int height_px);
 
-/// Corners that `corners` finds in a picture, away from `taken`, without a limit of time.
-[[nodiscard]] std::vector<vision::Corner> find_more(vision::NewCorners& corners, const GreyImage& picture,
+/// Corners that `corners` finds in an image, away from `taken`, without a limit of time.
+[[nodiscard]] std::vector<vision::Corner> find_more(vision::NewCorners& corners, const GreyImage& image,
                                                     const std::vector<Eigen::Vector2d>& taken);
 
 }  // namespace waymark

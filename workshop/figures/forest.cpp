@@ -22,7 +22,7 @@ struct ForestRequest {
   std::string associate;
   int seeds = 50;
   int particles = 150;
-  int sightings = 10;
+  int observations = 10;
   std::optional<int> trunks;
   std::optional<double> field_m;
   std::optional<double> clutter;
@@ -48,7 +48,7 @@ struct Pair {
   ForestRun unknown;
 };
 
-using Sightings = std::map<LandmarkId, int>;
+using Observations = std::map<LandmarkId, int>;
 
 /// Trunks as far apart, and a path as far from the edge, as in the field of 30 m.
 constexpr double kPathInside_m = 6.0;
@@ -75,13 +75,13 @@ std::optional<RunResult> run(const ForestRequest& request, int seed, bool identi
 }
 
 /// How often each trunk was sighted: the run with identities says so.
-Sightings count_sightings(const RunResult& known) {
-  Sightings sightings;
-  for (const auto& [stamp, innovation] : known.recording.innovations) ++sightings[innovation.landmark];
-  return sightings;
+Observations count_observations(const RunResult& known) {
+  Observations observations;
+  for (const auto& [stamp, innovation] : known.recording.innovations) ++observations[innovation.landmark];
+  return observations;
 }
 
-void count_landmarks(ForestRun& kept, const RunResult& result, const Sightings& sightings, int least) {
+void count_landmarks(ForestRun& kept, const RunResult& result, const Observations& observations, int least) {
   const eval::Evaluation& e = *result.evaluation;
   if (!e.fit) return;
   const auto map = result.recording.filter->snapshot().landmarks;
@@ -92,8 +92,8 @@ void count_landmarks(ForestRun& kept, const RunResult& result, const Sightings& 
   kept.map = static_cast<double>(map.size());
   kept.spurious = static_cast<double>(map.size() - matches.size());
   for (std::size_t j = 0; j < survey.size(); ++j) {
-    const auto count = sightings.find(survey[j].id);
-    if (count == sightings.end() || count->second < least) continue;
+    const auto count = observations.find(survey[j].id);
+    if (count == observations.end() || count->second < least) continue;
     kept.seen += 1.0;
     kept.missed += found[j] ? 0.0 : 1.0;
   }
@@ -102,7 +102,7 @@ void count_landmarks(ForestRun& kept, const RunResult& result, const Sightings& 
   if (error) kept.landmark_rmse_m = error->rmse_m.value_or(NAN);
 }
 
-ForestRun keep(const RunResult& result, const Sightings& sightings, int least) {
+ForestRun keep(const RunResult& result, const Observations& observations, int least) {
   const eval::Evaluation& e = *result.evaluation;
   ForestRun kept;
   kept.rmse_m = e.path.position_rmse_m.value_or(NAN);
@@ -110,7 +110,7 @@ ForestRun keep(const RunResult& result, const Sightings& sightings, int least) {
   kept.dead_reckoning_rmse_m = e.odometry.position_rmse_m.value_or(NAN);
   kept.nees_median = e.nees.median.value_or(NAN);
   kept.step_us = step_times(result.recording.steps).mean_us;
-  count_landmarks(kept, result, sightings, least);
+  count_landmarks(kept, result, observations, least);
   return kept;
 }
 
@@ -118,8 +118,9 @@ Pair run_both(const ForestRequest& request, int seed) {
   const auto known = run(request, seed, true);
   const auto unknown = run(request, seed, false);
   if (!known || !unknown) return {};
-  const Sightings sightings = count_sightings(*known);
-  return {keep(*known, sightings, request.sightings), keep(*unknown, sightings, request.sightings)};
+  const Observations observations = count_observations(*known);
+  return {keep(*known, observations, request.observations),
+          keep(*unknown, observations, request.observations)};
 }
 
 void print_row(const char* name, const std::vector<ForestRun>& runs) {
@@ -151,7 +152,7 @@ void print_table(const ForestRequest& request) {
   fmt::print("unknown against known, position: mean {:.2f}, median {:.2f}\n",
              mean(unknown, &ForestRun::rmse_m) / mean(known, &ForestRun::rmse_m),
              median(unknown, &ForestRun::rmse_m) / median(known, &ForestRun::rmse_m));
-  fmt::print("missed counts trunks with {} sightings or more: {:.1f} of a run's\n", request.sightings,
+  fmt::print("missed counts trunks with {} observations or more: {:.1f} of a run's\n", request.observations,
              mean(known, &ForestRun::seen));
 }
 
@@ -165,10 +166,11 @@ void add_forest(CLI::App& app) {
   command->add_option("--trunks", request->trunks)->check(CLI::PositiveNumber);
   command->add_option("--field", request->field_m, "side of the square that they stand on, m")
       ->check(CLI::Range(10.0, 1000.0));
-  command->add_option("--clutter", request->clutter, "chance that a sighting comes with a false one");
+  command->add_option("--clutter", request->clutter, "chance that an observation comes with a false one");
   command->add_option("--seeds", request->seeds)->check(CLI::PositiveNumber);
   command->add_option("--particles", request->particles)->check(CLI::PositiveNumber);
-  command->add_option("--sightings", request->sightings, "least sightings of a trunk that may be missed");
+  command->add_option("--observations", request->observations,
+                      "least observations of a trunk that may be missed");
   command->add_option("--set", request->settings, "config key=value")->allow_extra_args(false);
   command->callback([request] { print_table(*request); });
 }

@@ -4,8 +4,8 @@
 
 namespace waymark {
 
-/// Adds `forest`: a filter that is not told which landmark it sees against the same one that is, on the same
-/// simulated runs.
+/// Adds `forest`: a filter that is not observable which landmark it sees against the same one that is, on the
+/// same simulated runs.
 void add_forest(CLI::App& app);
 
 }  // namespace waymark

@@ -15,11 +15,11 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kStep = 1e-6;  // of numeric derivatives, rad and m
 
-/// What is left of all sightings, stacked; nothing where a point is behind the camera.
+/// What is left of all observations, stacked; nothing where a point is behind the camera.
 std::optional<Eigen::VectorXd> misfit(const WideAngleLens& lens, const HandHeld& place,
-                                      std::span<const KnownSighting> sightings) {
-  Eigen::VectorXd r(2 * std::ssize(sightings));
-  for (Eigen::Index row = 0; const KnownSighting& each : sightings) {
+                                      std::span<const KnownObservation> observations) {
+  Eigen::VectorXd r(2 * std::ssize(observations));
+  for (Eigen::Index row = 0; const KnownObservation& each : observations) {
     const auto pixel = lens.pixel(place.to_camera(each.p_world));
     if (!pixel) return std::nullopt;
     r.segment<2>(row) = each.pixel - *pixel;
@@ -46,8 +46,8 @@ class Bundle {
     count_ = 0;
     for (const KnownTrack& track : known_)
       for (const PlaceIn& place : track.places) {
-        const HandHeld& camera = cameras_[place.picture];
-        add(place.pixel, with_derivatives, {{camera_at(place.picture), 6}}, [&](const Eigen::VectorXd& step) {
+        const HandHeld& camera = cameras_[place.image];
+        add(place.pixel, with_derivatives, {{camera_at(place.image), 6}}, [&](const Eigen::VectorXd& step) {
           return lens_.pixel(camera.moved(step).to_camera(track.p_world));
         });
       }
@@ -67,13 +67,13 @@ class Bundle {
     for (std::size_t i = 1; i < cameras_.size(); ++i)
       cameras_[i] = cameras_[i].moved(step.segment<6>(camera_at(i)));
     for (std::size_t k = 0; k < tracks_.size(); ++k)
-      tracks_[k].rho_per_m = std::max(kLeastRho_per_m, tracks_[k].rho_per_m + step[ray_at(k)]);
+      tracks_[k].rho_per_m = std::max(kMinRho_per_m, tracks_[k].rho_per_m + step[ray_at(k)]);
   }
 
   [[nodiscard]] double rms_px() const { return std::sqrt(squares_ / (2.0 * count_)); }
 
  private:
-  static constexpr double kLeastRho_per_m = 0.05;
+  static constexpr double kMinRho_per_m = 0.05;
   static constexpr double kHuber_px = 1.0;
   struct Part {
     Eigen::Index at;  ///< below 0: of the first camera, which stays
@@ -89,10 +89,10 @@ class Bundle {
     const RayTrack& track = tracks_[k];
     const HandHeld& anchor = cameras_[track.anchor];
     for (const PlaceIn& place : track.places) {
-      if (place.picture == track.anchor) continue;
-      const HandHeld& camera = cameras_[place.picture];
+      if (place.image == track.anchor) continue;
+      const HandHeld& camera = cameras_[place.image];
       add(place.pixel, with_derivatives,
-          {{camera_at(place.picture), 6}, {camera_at(track.anchor), 6}, {ray_at(k), 1}},
+          {{camera_at(place.image), 6}, {camera_at(track.anchor), 6}, {ray_at(k), 1}},
           [&](const Eigen::VectorXd& step) {
             const Eigen::Vector3d p_anchor = track.xy.homogeneous() / (track.rho_per_m + step[12]);
             return lens_.pixel(
@@ -192,17 +192,17 @@ HandHeld HandHeld::moved(const Vector6d& step) const {
 }
 
 std::optional<HandHeld> resect(const WideAngleLens& lens, const HandHeld& start,
-                               std::span<const KnownSighting> sightings, double sigma_px) {
+                               std::span<const KnownObservation> observations, double sigma_px) {
   constexpr int kIterations = 20;
   constexpr double kSettled = 1e-8;
-  if (sightings.size() < 3) return std::nullopt;
+  if (observations.size() < 3) return std::nullopt;
   HandHeld place = start;
   for (int i = 0; i < kIterations; ++i) {
-    const auto r = misfit(lens, place, sightings);
+    const auto r = misfit(lens, place, observations);
     if (!r) return std::nullopt;
     Eigen::MatrixXd J(r->size(), 6);
     for (int axis = 0; axis < 6; ++axis) {
-      const auto ahead = misfit(lens, place.moved(kStep * Vector6d::Unit(axis)), sightings);
+      const auto ahead = misfit(lens, place.moved(kStep * Vector6d::Unit(axis)), observations);
       if (!ahead) return std::nullopt;
       J.col(axis) = (*r - *ahead) / kStep;
     }

@@ -38,19 +38,19 @@ struct HandHeld {
 };
 
 /// A point that is known, and where it is seen.
-struct KnownSighting {
+struct KnownObservation {
   Eigen::Vector3d p_world;
   Eigen::Vector2d pixel;
 };
 
 /// The place from which known points look like this, by Gauss-Newton from `start`; nothing where it does not
-/// settle or leaves an RMS of more than 3 sigma. At least three sightings.
+/// settle or leaves an RMS of more than 3 sigma. At least three observations.
 [[nodiscard]] std::optional<HandHeld> resect(const WideAngleLens& lens, const HandHeld& start,
-                                             std::span<const KnownSighting> sightings, double sigma_px);
+                                             std::span<const KnownObservation> observations, double sigma_px);
 
-/// A place in a picture.
+/// A place in an image.
 struct PlaceIn {
-  std::size_t picture;
+  std::size_t image;
   Eigen::Vector2d pixel;
 };
 
@@ -60,7 +60,7 @@ struct KnownTrack {
   std::vector<PlaceIn> places;
 };
 
-/// A point on the ray (x, y, 1) of the camera of one picture, and where others show it.
+/// A point on the ray (x, y, 1) of the camera of one image, and where others show it.
 struct RayTrack {
   std::size_t anchor;
   Eigen::Vector2d xy;

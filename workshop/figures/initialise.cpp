@@ -34,9 +34,9 @@ using Eigen::Vector3d;
 
 constexpr double kSigma_px = 1.0;    // noise of the sequence's places, as its authors give it
 constexpr double kDepthRatio = 0.3;  // sigma of the depth over the depth at which it is known
-constexpr int kMostMisses = 10;
-constexpr std::size_t kLeastPictures = 8;
-constexpr std::size_t kMostUnderWay = 6;
+constexpr int kMaxMisses = 10;
+constexpr std::size_t kMinImages = 8;
+constexpr std::size_t kMaxUnderWay = 6;
 
 /// The target before which the sequence begins.
 const std::array<Vector3d, 4> kTarget{
@@ -48,9 +48,9 @@ struct InitialiseRequest {
   std::string drawing;
 };
 
-/// One picture in the life of a candidate.
+/// One image in the life of a candidate.
 struct Glance {
-  std::size_t picture;
+  std::size_t image;
   Vector2d predicted;
   Matrix2d S;
   std::optional<Vector2d> found;
@@ -68,14 +68,14 @@ struct Candidate {
   enum class End { kUnderWay, kKnown, kGivenUp } end = End::kUnderWay;
 };
 
-vision::Appearance appearance_at(const GreyImage& picture, const Vector2d& pixel) {
+vision::Appearance appearance_at(const GreyImage& image, const Vector2d& pixel) {
   const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-  const auto patch = vision::cut_reference(picture, u, v);
+  const auto patch = vision::cut_reference(image, u, v);
   return {.seen_from = {}, .patch = {patch.value_or(vision::ReferencePatch{}), kDeskPatch_px}};
 }
 
-vision::LandmarkFinder finder_in(const GreyImage& picture) {
-  return desk_finder(picture.width_px(), picture.height_px());
+vision::LandmarkFinder finder_in(const GreyImage& image) {
+  return desk_finder(image.width_px(), image.height_px());
 }
 
 /// Follows the target's corners and others for as long as three of the target's are seen.
@@ -95,15 +95,15 @@ class Tracks {
     cut_new(first, 0);
   }
 
-  bool see(const GreyImage& picture) {
+  bool see(const GreyImage& image) {
     const std::size_t number = cameras.size();
-    std::vector<KnownSighting> seen;
+    std::vector<KnownObservation> seen;
     std::vector<double> du, dv;
     for (Followed& each : followed_) {
       const auto finding =
-          finder_.look_for({.predicted_px = each.pixel + motion_, .S = desk_prediction_covariance()}, picture,
-                           {}, each.appearance);
-      each.ended = finding.result != vision::Look::Result::kFound;
+          finder_.search_for({.predicted_px = each.pixel + motion_, .S = desk_prediction_covariance()}, image,
+                             {}, each.appearance);
+      each.ended = finding.result != vision::SearchRecord::Result::kFound;
       if (each.ended) continue;
       du.push_back(finding.pixel.x() - each.pixel.x());
       dv.push_back(finding.pixel.y() - each.pixel.y());
@@ -117,12 +117,12 @@ class Tracks {
     if (!place) return false;
     cameras.push_back(*place);
     motion_ = {eval::median(du).value_or(0.0), eval::median(dv).value_or(0.0)};
-    cut_new(picture, number);
+    cut_new(image, number);
     return true;
   }
 
   WideAngleLens lens;
-  std::vector<HandHeld> cameras;  ///< one a picture
+  std::vector<HandHeld> cameras;  ///< one an image
   std::vector<KnownTrack> target;
   std::vector<RayTrack> tracks;
   std::vector<vision::Appearance> appearances;  ///< of each track
@@ -136,13 +136,13 @@ class Tracks {
     bool ended = false;
   };
 
-  void cut_new(const GreyImage& picture, std::size_t number) {
+  void cut_new(const GreyImage& image, std::size_t number) {
     std::vector<Vector2d> taken;
     for (const Followed& each : followed_) taken.push_back(each.pixel);
-    for (const vision::Corner& corner : find_more(new_corners_, picture, taken)) {
+    for (const vision::Corner& corner : find_more(new_corners_, image, taken)) {
       const Vector2d pixel(corner.u, corner.v);
       tracks.push_back({number, lens.ray(pixel), -1.0 / kStart_m, {{number, pixel}}});
-      appearances.push_back(appearance_at(picture, pixel));
+      appearances.push_back(appearance_at(image, pixel));
       followed_.push_back({appearances.back(), pixel, tracks.size() - 1});
     }
   }
@@ -153,14 +153,14 @@ class Tracks {
   Vector2d motion_ = Vector2d::Zero();
 };
 
-/// Finds the depths of corners again, picture by picture, from where the camera was.
+/// Finds the depths of corners again, image by image, from where the camera was.
 class Initialiser {
  public:
-  Initialiser(const Tracks& all, const GreyImage& picture) : all_(all), finder_(finder_in(picture)) {}
+  Initialiser(const Tracks& all, const GreyImage& image) : all_(all), finder_(finder_in(image)) {}
 
-  void see(const GreyImage& picture) {
+  void see(const GreyImage& image) {
     for (Candidate& candidate : candidates_)
-      if (candidate.end == Candidate::End::kUnderWay) look_for(candidate, picture);
+      if (candidate.end == Candidate::End::kUnderWay) search_for(candidate, image);
     begin_new();
     ++number_;
   }
@@ -174,7 +174,7 @@ class Initialiser {
     return all_.lens.pixel(all_.cameras[number_].to_camera(p_world));
   }
 
-  void look_for(Candidate& candidate, const GreyImage& picture) {
+  void search_for(Candidate& candidate, const GreyImage& image) {
     const auto rho = candidate.depths.inverse_depth();
     const auto predicted = predict(candidate, rho.mean);
     const auto beyond = predict(candidate, rho.mean + rho.sigma);
@@ -182,16 +182,17 @@ class Initialiser {
     const Vector2d along = *beyond - *predicted;
     const Matrix2d S = noise() + along * along.transpose();
     const auto finding =
-        finder_.look_for({.predicted_px = *predicted, .S = S}, picture, {}, candidate.appearance);
-    if (finding.result == vision::Look::Result::kNotTried) return give_up(candidate);
+        finder_.search_for({.predicted_px = *predicted, .S = S}, image, {}, candidate.appearance);
+    if (finding.result == vision::SearchRecord::Result::kNotTried) return give_up(candidate);
     auto particles = where_particles_are(candidate);
-    const bool found = finding.result == vision::Look::Result::kFound && weigh(candidate, finding.pixel);
+    const bool found =
+        finding.result == vision::SearchRecord::Result::kFound && weigh(candidate, finding.pixel);
     if (!found) ++candidate.misses;
     candidate.glances.push_back({number_, *predicted, S, found ? std::optional(finding.pixel) : std::nullopt,
                                  std::move(particles), candidate.depths.depth()});
-    if (candidate.misses >= kMostMisses) return give_up(candidate);
+    if (candidate.misses >= kMaxMisses) return give_up(candidate);
     const auto& depth = candidate.glances.back().depth_m;
-    if (candidate.glances.size() >= kLeastPictures && depth.sigma < kDepthRatio * depth.mean)
+    if (candidate.glances.size() >= kMinImages && depth.sigma < kDepthRatio * depth.mean)
       candidate.end = Candidate::End::kKnown;
   }
 
@@ -218,11 +219,11 @@ class Initialiser {
     return places;
   }
 
-  /// Some of the corners that were cut in this picture.
+  /// Some of the corners that were cut in this image.
   void begin_new() {
     auto under_way =
         static_cast<std::size_t>(std::ranges::count(candidates_, Candidate::End::kUnderWay, &Candidate::end));
-    for (std::size_t k = 0; k < all_.tracks.size() && under_way < kMostUnderWay; ++k) {
+    for (std::size_t k = 0; k < all_.tracks.size() && under_way < kMaxUnderWay; ++k) {
       if (all_.tracks[k].anchor != number_) continue;
       ++under_way;
       candidates_.push_back({.track = k,
@@ -254,19 +255,19 @@ void print(const Initialiser& all, const Tracks& tracks, double rms_px) {
     differences.push_back(std::abs(depth.mean - 1.0 / tracks.tracks[candidate.track].rho_per_m) /
                           depth.sigma);
   }
-  fmt::print("{} pictures with the target in view; poses from {} corners at once, {:.2f} px RMS are left\n",
+  fmt::print("{} images with the target in view; poses from {} corners at once, {:.2f} px RMS are left\n",
              tracks.cameras.size(), tracks.tracks.size(), rms_px);
   fmt::print("{} corners begun, {} known to {} of their depth or better, {} given up\n",
              all.candidates().size(), count(all, Candidate::End::kKnown), kDepthRatio,
              count(all, Candidate::End::kGivenUp));
   fmt::print(
-      "pictures until then, median {:.0f}; depth, median {:.2f} m; off what all pictures say by {:.1f} "
+      "images until then, median {:.0f}; depth, median {:.2f} m; off what all images say by {:.1f} "
       "sigma, median\n",
       eval::median(needed).value_or(NAN), eval::median(depths_m).value_or(NAN),
       eval::median(differences).value_or(NAN));
 }
 
-constexpr int kTile_px = 48;   // of the picture
+constexpr int kTile_px = 48;   // of the image
 constexpr int kMagnified = 3;  // times
 constexpr int kTilesInAStrip = 7;
 constexpr int kStrips = 6;
@@ -283,14 +284,14 @@ std::string ellipse_svg(const Vector2d& centre, const Matrix2d& S) {
       centre.y());
 }
 
-/// The piece of a picture around the search, with what was looked for in it.
-Result<std::string> tile_svg(const Glance& glance, const GreyImage& picture) {
+/// The piece of an image around the search, with what was looked for in it.
+Result<std::string> tile_svg(const Glance& glance, const GreyImage& image) {
   const auto corner_of = [](double middle, int size) {
     return std::clamp(static_cast<int>(std::lround(middle)) - kTile_px / 2, 0, size - kTile_px);
   };
-  const int u = corner_of(glance.predicted.x(), picture.width_px());
-  const int v = corner_of(glance.predicted.y(), picture.height_px());
-  const auto png = encode_png(picture.view().part(u, v, kTile_px, kTile_px));
+  const int u = corner_of(glance.predicted.x(), image.width_px());
+  const int v = corner_of(glance.predicted.y(), image.height_px());
+  const auto png = encode_png(image.view().part(u, v, kTile_px, kTile_px));
   if (!png) return png.error();
   std::string svg = fmt::format(
       "<svg width=\"{0}\" height=\"{0}\" viewBox=\"{1} {2} {3} {3}\"><image x=\"{1}\" y=\"{2}\" "
@@ -309,7 +310,7 @@ Result<std::string> tile_svg(const Glance& glance, const GreyImage& picture) {
   return svg + "</svg>";
 }
 
-/// First and last picture of a candidate and some between.
+/// First and last image of a candidate and some between.
 std::vector<Glance> chosen(const Candidate& candidate) {
   std::vector<Glance> glances;
   const std::size_t all = candidate.glances.size();
@@ -333,14 +334,14 @@ Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& fi
       width, height);
   for (int row = 0; const Candidate* candidate : strips) {
     for (int column = 0; const Glance& glance : chosen(*candidate)) {
-      const auto picture = read_image(files[glance.picture]);
-      if (!picture) return picture.error();
-      const auto tile = tile_svg(glance, *picture);
+      const auto image = read_image(files[glance.image]);
+      if (!image) return image.error();
+      const auto tile = tile_svg(glance, *image);
       if (!tile) return tile.error();
       svg += fmt::format(
-          "<g transform=\"translate({},{})\">{}<text y=\"{}\">picture {}: {:.2f} &#177; {:.2f} "
+          "<g transform=\"translate({},{})\">{}<text y=\"{}\">image {}: {:.2f} &#177; {:.2f} "
           "m</text></g>\n",
-          10 + column * kPitch_px, 10 + row * kRow, *tile, kTile_px * kMagnified + 13, glance.picture,
+          10 + column * kPitch_px, 10 + row * kRow, *tile, kTile_px * kMagnified + 13, glance.image,
           glance.depth_m.mean, glance.depth_m.sigma);
       ++column;
     }
@@ -350,22 +351,22 @@ Result<std::string> draw(const Initialiser& all, const std::vector<fs::path>& fi
 }
 
 Result<void> initialise_over(const InitialiseRequest& request) {
-  const auto files = desk_pictures(request.folder);
+  const auto files = desk_images(request.folder);
   if (!files) return files.error();
   const auto first = read_image(files->front());
   if (!first) return first.error();
   Tracks tracks(*first);
   for (std::size_t k = 1; k < files->size(); ++k) {
-    const auto picture = read_image((*files)[k], ImageSize{first->width_px(), first->height_px()});
-    if (!picture) return picture.error();
-    if (!tracks.see(*picture)) break;
+    const auto image = read_image((*files)[k], ImageSize{first->width_px(), first->height_px()});
+    if (!image) return image.error();
+    if (!tracks.see(*image)) break;
   }
   const double rms_px = bundle(tracks.lens, tracks.cameras, tracks.target, tracks.tracks);
   Initialiser initialiser(tracks, *first);
   for (std::size_t k = 0; k < tracks.cameras.size(); ++k) {
-    const auto picture = read_image((*files)[k]);
-    if (!picture) return picture.error();
-    initialiser.see(*picture);
+    const auto image = read_image((*files)[k]);
+    if (!image) return image.error();
+    initialiser.see(*image);
   }
   print(initialiser, tracks, rms_px);
   if (request.drawing.empty()) return {};
@@ -382,9 +383,9 @@ int initialise(const InitialiseRequest& request) {
 }  // namespace
 
 void add_initialise(CLI::App& app, int& status) {
-  auto* command = app.add_subcommand("initialise", "depths of new corners in pictures of a hand-held camera");
+  auto* command = app.add_subcommand("initialise", "depths of new corners in images of a hand-held camera");
   auto request = std::make_shared<InitialiseRequest>();
-  command->add_option("folder", request->folder, "monoslam-desk: a folder with pictures in frames/")
+  command->add_option("folder", request->folder, "monoslam-desk: a folder with images in frames/")
       ->required();
   command->add_option("-o,--output", request->drawing, "draw strips of it as well")->type_name("FILE.svg");
   command->callback([request, &status] { status = initialise(*request); });

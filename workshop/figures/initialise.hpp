@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// `initialise`: depth particles of new corners, picture by picture, where a hand holds the camera.
+/// `initialise`: depth particles of new corners, image by image, where a hand holds the camera.
 void add_initialise(CLI::App& app, int& status);
 
 }  // namespace waymark

@@ -171,8 +171,8 @@ StudyRun study_run(int seed, const std::vector<std::string>& extra) {
 
 int study_world(int seeds, const std::vector<std::string>& extra) {
   std::vector<StudyRun> runs(static_cast<std::size_t>(seeds));
-  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  team.run(seeds, [&](int i) { runs[static_cast<std::size_t>(i)] = study_run(i + 1, extra); });
+  ThreadPool thread_pool(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  thread_pool.run(seeds, [&](int i) { runs[static_cast<std::size_t>(i)] = study_run(i + 1, extra); });
   if (!std::ranges::all_of(runs, &StudyRun::ok)) return 1;
   std::vector<double> ekf;
   std::vector<double> fastslam;

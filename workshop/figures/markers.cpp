@@ -31,7 +31,7 @@ struct MarkersRun {
   double landmarks_spurious = NAN;
   double nees_mean = NAN;
   double nis_per_dof = NAN;
-  double picture_ms = NAN;  ///< detection, measurement and filter
+  double image_ms = NAN;  ///< detection, measurement and filter
   NeesOverTime nees;
 };
 
@@ -48,10 +48,10 @@ double worst_landmark_m(const RunResult& result) {
   return worst_m;
 }
 
-double picture_ms(const Recording& recording) {
+double image_ms(const Recording& recording) {
   double total_ms = 0.0;
   for (const FunctionBlocks::Row& row : recording.blocks) total_ms += 1e3 * to_seconds(row.total);
-  return total_ms / static_cast<double>(std::max<std::int64_t>(1, recording.counts.pictures));
+  return total_ms / static_cast<double>(std::max<std::int64_t>(1, recording.counts.images));
 }
 
 MarkersRun drive(const MarkersRequest& request, int seed) {
@@ -68,7 +68,7 @@ MarkersRun drive(const MarkersRequest& request, int seed) {
                  static_cast<double>(e.map->spurious),
                  e.nees.mean.value_or(NAN),
                  result->metrics.nis_per_dof.value_or(NAN),
-                 picture_ms(result->recording),
+                 image_ms(result->recording),
                  {}};
   for (const auto& sample : e.series)
     if (sample.nees) run.nees[sample.stamp] = *sample.nees;
@@ -98,11 +98,11 @@ int drive_all(const MarkersRequest& request) {
   fmt::print(
       "pose NEES over a run: mean {:.2f}, median {:.2f}; mean of the runs inside its 99 % band in {:.1f} % "
       "of "
-      "the pictures; NIS per dof {:.2f}\n",
+      "the images; NIS per dof {:.2f}\n",
       mean(runs, &MarkersRun::nees_mean), median(runs, &MarkersRun::nees_mean),
       100.0 * part_inside(nees, 0.0, HUGE_VAL), mean(runs, &MarkersRun::nis_per_dof));
-  fmt::print("CPU per picture of 640 x 480, detection to filter: {:.1f} ms\n",
-             median(runs, &MarkersRun::picture_ms));
+  fmt::print("CPU per image of 640 x 480, detection to filter: {:.1f} ms\n",
+             median(runs, &MarkersRun::image_ms));
   return 0;
 }
 

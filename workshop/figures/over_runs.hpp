@@ -17,8 +17,8 @@ namespace waymark {
 /// Makes runs 0 to `count` - 1 by job(i), on all cores.
 template <class Job>
 void for_all_runs(int count, const Job& job) {
-  ThreadTeam team(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  team.run(count, job);
+  ThreadPool thread_pool(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  thread_pool.run(count, job);
 }
 
 template <class Run>

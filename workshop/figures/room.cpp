@@ -65,7 +65,7 @@ int room(const RoomRequest& request) {
   }
   std::vector<NeesOverTime> nees;
   for (const RoomRun& run : runs) nees.push_back(run.nees);
-  fmt::print("sim:{}, {} seeds, natural corners in rendered pictures\n", request.scenario, request.seeds);
+  fmt::print("sim:{}, {} seeds, natural corners in rendered images\n", request.scenario, request.seeds);
   fmt::print("final error, m: median {:.3f}, 95 % below {:.3f}, largest {:.3f}; odometry alone {:.2f}\n",
              median(runs, &RoomRun::final_m), quantile(runs, &RoomRun::final_m, 0.95),
              quantile(runs, &RoomRun::final_m, 1.0), median(runs, &RoomRun::odometry_final_m));
@@ -73,7 +73,7 @@ int room(const RoomRequest& request) {
              quantile(runs, &RoomRun::rmse_m, 1.0), count_diverged(runs));
   fmt::print(
       "pose NEES over a run: median {:.1f}, mean {:.1f}; mean of the runs inside its 99 % band in "
-      "{:.1f} % of the pictures\n",
+      "{:.1f} % of the images\n",
       median(runs, &RoomRun::nees_mean), mean(runs, &RoomRun::nees_mean),
       100.0 * part_inside(nees, 0.0, HUGE_VAL));
   return 0;

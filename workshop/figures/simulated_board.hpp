@@ -21,7 +21,7 @@ struct Poses {
   double tilt_deg = 40.0;  ///< at most, about either axis
   double nearest_m = 0.25;
   double farthest_m = 0.6;
-  double part = 1.0;  ///< of the picture's width and height, from its upper left, that boards lie in
+  double part = 1.0;  ///< of the image's width and height, from its upper left, that boards lie in
 };
 
 /// What board, camera and corners have wrong.
@@ -36,10 +36,10 @@ struct Flaws {
   bool fisheye = false;  ///< equidistant (the radius is as the angle) before the camera's own distortion
 };
 
-/// From the board to the camera; its middle lies somewhere in the picture.
+/// From the board to the camera; its middle lies somewhere in the image.
 [[nodiscard]] Eigen::Isometry3d random_pose(const Board& board, const Poses& poses, RandomStream& random);
 
-/// The corners of a board that is wholly in the picture, without noise and rolling; empty where it is not.
+/// The corners of a board that is wholly in the image, without noise and rolling; empty where it is not.
 [[nodiscard]] BoardCorners project(const Board& board, const CameraOptions& camera,
                                    const Eigen::Isometry3d& T_camera_board, const Flaws& flaws = {});
 

@@ -33,13 +33,13 @@ CameraPlan camera_plan(BenchScope scope) {
   return scope == BenchScope::kQuick ? CameraPlan{4.0, 3, 10} : CameraPlan{24.0, 7, 50};
 }
 
-/// A drive held in memory, pictures and all.
+/// A drive held in memory, images and all.
 struct Drive {
   LogInfo info;
   Config config;
   std::vector<Event> events;
 
-  [[nodiscard]] const GreyImage& last_picture() const {
+  [[nodiscard]] const GreyImage& last_image() const {
     const auto last = std::find_if(events.rbegin(), events.rend(), [](const Event& event) {
       return std::holds_alternative<Image>(event.content);
     });
@@ -70,12 +70,12 @@ double time_s(const CameraPlan& plan, double count, const std::function<void()>&
   return *eval::median(rounds);
 }
 
-void append_corners(std::vector<BenchResult>& results, const CameraPlan& plan, const GreyImage& picture) {
+void append_corners(std::vector<BenchResult>& results, const CameraPlan& plan, const GreyImage& image) {
   for (const int arc : {9, 12}) {
     vision::CornerDetector detector({.arc = arc});
-    const double spent_s = time_s(plan, 1.0, [&] { (void)detector.detect(picture); });
+    const double spent_s = time_s(plan, 1.0, [&] { (void)detector.detect(image); });
     results.push_back({"camera.fast",
-                       {{"arc", arc}, {"width", picture.width_px()}, {"height", picture.height_px()}},
+                       {{"arc", arc}, {"width", image.width_px()}, {"height", image.height_px()}},
                        1e6 * spent_s,
                        "us"});
   }
@@ -92,7 +92,7 @@ std::vector<kernels::WindowRow> circle(int radius) {
 }
 
 void append_zmssd(std::vector<BenchResult>& results, const CameraPlan& plan, const Machine& machine,
-                  const GreyImage& picture) {
+                  const GreyImage& image) {
   const auto rows = circle(12);
   int windows = 0;
   for (const auto& row : rows) windows += row.count;
@@ -100,10 +100,10 @@ void append_zmssd(std::vector<BenchResult>& results, const CameraPlan& plan, con
   const std::array targets{std::pair{machine.instruction_set, &kernels::zmssd_search},
                            std::pair{std::string("scalar"), &kernels::reference::zmssd_search}};
   for (const int size : {8, 16}) {
-    const auto patch = kernels::make_zmssd_patch(picture.view().pixel(150, 100), picture.stride(), size);
+    const auto patch = kernels::make_zmssd_patch(image.view().pixel(150, 100), image.stride(), size);
     for (const auto& [target, search] : targets) {
       const double spent_s = time_s(plan, windows, [&, run = search] {
-        run(patch, picture.view().pixel(140, 90), picture.stride(), rows.data(), rows.size(), scores.data());
+        run(patch, image.view().pixel(140, 90), image.stride(), rows.data(), rows.size(), scores.data());
       });
       results.push_back({"camera.zmssd", {{"patch", size}, {"target", target}}, 1e9 * spent_s, "ns"});
     }
@@ -178,8 +178,8 @@ std::vector<BenchResult> bench_camera(const Machine& machine, BenchScope scope,
   const CameraPlan plan = camera_plan(scope);
   const Drive drive = render(plan.drive_s, [&](double fraction) { progress(0.6 * fraction); });
   std::vector<BenchResult> results;
-  append_corners(results, plan, drive.last_picture());
-  append_zmssd(results, plan, machine, drive.last_picture());
+  append_corners(results, plan, drive.last_image());
+  append_zmssd(results, plan, machine, drive.last_image());
   progress(0.7);
   const Recording ours = run(drive, drive.config);
   append_mode(results, "default", ours);

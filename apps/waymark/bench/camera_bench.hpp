@@ -7,7 +7,7 @@
 
 namespace waymark::app {
 
-/// The camera system: its kernels on a rendered picture, then whole frames and their function blocks on a
+/// The camera system: its kernels on a rendered image, then whole frames and their function blocks on a
 /// drive through the rendered room, as it is and in the article's mode, with the article's published times.
 [[nodiscard]] std::vector<BenchResult> bench_camera(const Machine& machine, BenchScope scope,
                                                     const BenchProgress& progress);

@@ -25,7 +25,7 @@ struct Size {
   std::size_t steps_per_round;
   bool textbook;    ///< O(n^3): only where it ends soon
   bool threads;     ///< large enough for a second thread
-  bool compressed;  ///< large enough for a region of its own
+  bool compressed;  ///< large enough for a submap of its own
 };
 constexpr std::array kSizes{Size{50, 200, true, false, false}, Size{200, 100, false, false, true},
                             Size{1000, 20, false, true, true}, Size{2000, 8, false, true, true}};
@@ -117,7 +117,7 @@ class SizeBench {
       : size_(size),
         rounds_(rounds),
         machine_(machine),
-        run_(make_synthetic_run(size.landmarks, kSightings,
+        run_(make_synthetic_run(size.landmarks, kObservations,
                                 static_cast<int>(rounds * size.steps_per_round))) {}
 
   std::vector<BenchResult> measure(const BenchProgress& progress) {
@@ -164,7 +164,7 @@ class SizeBench {
       if (contender.name.starts_with("ekf.plain"))
         results.push_back({contender.name + "_ratio", params_, ratio(contender, invariant), "x"});
     const double n = 3.0 + 2.0 * size_.landmarks;
-    const double bound_ms = n * n * 2.0 * kSightings / (machine_.fma_gflops * 1e6);
+    const double bound_ms = n * n * 2.0 * kObservations / (machine_.fma_gflops * 1e6);
     results.push_back({"ekf.flop_bound", params_, bound_ms, "ms"});
     results.push_back({"ekf.flop_bound_distance", params_, invariant.result().value / bound_ms, "x"});
   }
@@ -173,7 +173,7 @@ class SizeBench {
   std::size_t rounds_;
   const Machine& machine_;
   SyntheticRun run_;
-  nlohmann::ordered_json params_{{"landmarks", size_.landmarks}, {"sightings", kSightings}};
+  nlohmann::ordered_json params_{{"landmarks", size_.landmarks}, {"observations", kObservations}};
   std::vector<Contender> contenders_;
 };
 

@@ -77,13 +77,13 @@ double median_of_rounds(std::size_t rounds, const std::function<double(std::size
 class LandmarkUpdates {
  public:
   LandmarkUpdates(int particles, Kind kind) : blocks_(particles), particles_(particles, {}), store_(blocks_) {
-    const kernels::SeenLandmark first{
-        kernels::SightingKind::kRangeBearing, 5.0F, 0.8F, 0.6F, 0.01F, 0.0F, 0.001F};
-    for (int k = 0; k < kSightings; ++k) {
-      sightings_[static_cast<std::size_t>(k)] = {
+    const kernels::LandmarkMeasurement first{
+        kernels::ObservationKind::kRangeBearing, 5.0F, 0.8F, 0.6F, 0.01F, 0.0F, 0.001F};
+    for (int k = 0; k < kObservations; ++k) {
+      observations_[static_cast<std::size_t>(k)] = {
           first, {}, store_.view(store_.add(kernels::LandmarkForm::kPoint, {0.0, 0.0}), {0.0, 0.0})};
-      place(sightings_[static_cast<std::size_t>(k)]);
-      sightings_[static_cast<std::size_t>(k)].seen.kind = kind_of(kind);
+      place(observations_[static_cast<std::size_t>(k)]);
+      observations_[static_cast<std::size_t>(k)].seen.kind = kind_of(kind);
     }
   }
 
@@ -93,20 +93,21 @@ class LandmarkUpdates {
     for (int i = 0; i < repetitions; ++i)
       blocks_.run([&](std::size_t begin, std::size_t end) { update(proposal, {begin, end - begin}); });
     return 1e9 * to_seconds(thread_cpu_time() - start) /
-           (static_cast<double>(repetitions) * particles_.count() * kSightings);
+           (static_cast<double>(repetitions) * particles_.count() * kObservations);
   }
 
  private:
-  static kernels::SightingKind kind_of(Kind kind) {
-    if (kind == Kind::kRange) return kernels::SightingKind::kRange;
-    return kind == Kind::kBearing ? kernels::SightingKind::kBearing : kernels::SightingKind::kRangeBearing;
+  static kernels::ObservationKind kind_of(Kind kind) {
+    if (kind == Kind::kRange) return kernels::ObservationKind::kRange;
+    return kind == Kind::kBearing ? kernels::ObservationKind::kBearing
+                                  : kernels::ObservationKind::kRangeBearing;
   }
 
-  void place(const kernels::Sighting& sighting) {
+  void place(const kernels::LandmarkObservation& observation) {
     blocks_.run([&](std::size_t begin, std::size_t end) {
       fastslam::BlockScratch scratch;
       const kernels::ParticleRange range{begin, end - begin};
-      kernels::place_landmark(sighting, {},
+      kernels::place_landmark(observation, {},
                               fastslam::load_sensors(particles_, {}, {0.0, 0.0}, range, scratch), range);
     });
   }
@@ -116,21 +117,21 @@ class LandmarkUpdates {
     const auto sensors = fastslam::load_sensors(particles_, {}, {0.0, 0.0}, range, scratch);
     double* const log_weight = particles_.log_weights().data() + range.begin;
     if (proposal == ProposalKind::kMotion) {
-      for (const auto& each : sightings_) kernels::update_landmark(each, sensors, 1.0, log_weight, range);
+      for (const auto& each : observations_) kernels::update_landmark(each, sensors, 1.0, log_weight, range);
       return;
     }
     const kernels::Increment increment{0.1F, 0.0F, 0.01F, 1e-4F, 0.0F, 0.0F, 1e-4F, 0.0F, 1e-4F};
     kernels::fill_increments(increment, scratch.increments(), range.count);
-    for (const auto& each : sightings_)
+    for (const auto& each : observations_)
       kernels::condition_increments(each, increment, scratch.robots(), 1.0, scratch.increments(), log_weight,
                                     range);
-    for (const auto& each : sightings_) kernels::update_landmark(each, sensors, 1.0, nullptr, range);
+    for (const auto& each : observations_) kernels::update_landmark(each, sensors, 1.0, nullptr, range);
   }
 
   fastslam::ParticleBlocks blocks_;
   fastslam::Particles particles_;
   fastslam::LandmarkStore store_;
-  std::array<kernels::Sighting, kSightings> sightings_;
+  std::array<kernels::LandmarkObservation, kObservations> observations_;
 };
 
 class FastSlamBench {
@@ -152,8 +153,8 @@ class FastSlamBench {
   /// poses, the weights.
   void updates() {
     const SyntheticRun run =
-        make_synthetic_run(100, kSightings, static_cast<int>(plan_.rounds) * plan_.steps);
-    for (const ProposalKind proposal : {ProposalKind::kMotion, ProposalKind::kSightings})
+        make_synthetic_run(100, kObservations, static_cast<int>(plan_.rounds) * plan_.steps);
+    for (const ProposalKind proposal : {ProposalKind::kMotion, ProposalKind::kObservations})
       for (const Kind kind : {Kind::kRangeBearing, Kind::kRange, Kind::kBearing}) {
         LandmarkUpdates landmarks(plan_.particles, kind);
         const double kernel_ns = median_of_rounds(
@@ -173,7 +174,7 @@ class FastSlamBench {
         filter->correct(of_kind(kind, step.observations));
       }
       return 1e9 * to_seconds(spent(filter->blocks(), "update") - before) /
-             (static_cast<double>(plan_.steps) * plan_.particles * kSightings);
+             (static_cast<double>(plan_.steps) * plan_.particles * kObservations);
     });
   }
 
@@ -185,7 +186,7 @@ class FastSlamBench {
   void steps() {
     const int landmarks = plan_.maps[2];
     const SyntheticRun run =
-        make_synthetic_run(landmarks, kSightings, static_cast<int>(plan_.rounds) * plan_.steps);
+        make_synthetic_run(landmarks, kObservations, static_cast<int>(plan_.rounds) * plan_.steps);
     const auto first = start_filter(run, {.proposal = ProposalKind::kMotion, .particles = plan_.particles});
     const auto second = start_filter(run, {.particles = plan_.particles});
     PlainFastSlam plain(plan_.particles, run.first_look);
@@ -214,18 +215,19 @@ class FastSlamBench {
     constexpr int kParticles = 100;
     for (const int landmarks : plan_.maps) {
       const SyntheticRun run =
-          make_synthetic_run(landmarks, kSightings, static_cast<int>(plan_.rounds) * plan_.steps);
+          make_synthetic_run(landmarks, kObservations, static_cast<int>(plan_.rounds) * plan_.steps);
       const auto filter =
-          start_filter(run, {.particles = kParticles, .resample_below = 1.0, .move_above = 1e9});
+          start_filter(run, {.particles = kParticles, .resample_below = 1.0, .enkf_above = 1e9});
       const double us = median_of_rounds(plan_.rounds, [&](std::size_t round) {
         const Duration before = spent(filter->blocks(), "resample");
         for (const auto& step : round_of(run, round)) advance(*filter, step);
         return 1e6 * to_seconds(spent(filter->blocks(), "resample") - before) / plan_.steps;
       });
-      results_.push_back({"fastslam.resample",
-                          {{"particles", kParticles}, {"landmarks", landmarks}, {"sightings", kSightings}},
-                          1e-3 * us,
-                          "ms"});
+      results_.push_back(
+          {"fastslam.resample",
+           {{"particles", kParticles}, {"landmarks", landmarks}, {"observations", kObservations}},
+           1e-3 * us,
+           "ms"});
     }
   }
 
@@ -250,7 +252,7 @@ class FastSlamBench {
     results_.push_back({"fastslam.many",
                         {{"particles", plan_.many},
                          {"landmarks", kLandmarks},
-                         {"sightings", kSeen},
+                         {"observations", kSeen},
                          {"threads", kThreads},
                          {"resampled", resampled}},
                         per_second,
@@ -277,7 +279,7 @@ class FastSlamBench {
     return {{"proposal", proposal},
             {"particles", plan_.particles},
             {"landmarks", landmarks},
-            {"sightings", kSightings}};
+            {"observations", kObservations}};
   }
 
   [[nodiscard]] std::span<const SyntheticRun::Step> round_of(const SyntheticRun& run,

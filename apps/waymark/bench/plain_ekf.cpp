@@ -10,7 +10,7 @@
 
 namespace waymark::app {
 
-/// One sighting, linearised.
+/// One observation, linearised.
 struct PlainEkf::Row {
   Eigen::Index at;  ///< where its landmark stands in the state
   Eigen::Vector2d nu;

@@ -66,15 +66,15 @@ class Field {
 
 }  // namespace
 
-SyntheticRun make_synthetic_run(int landmarks, int sightings, int steps) {
+SyntheticRun make_synthetic_run(int landmarks, int landmark_observations, int steps) {
   Field field(landmarks);
   SyntheticRun run;
   run.start.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
   run.first_look = field.look_at_all();
   for (int i = 0; i < steps; ++i) {
     const Motion motion = field.drive();
-    run.steps.push_back(
-        {motion, field.look_at_nearest(static_cast<std::size_t>(std::min(sightings, landmarks)))});
+    run.steps.push_back({motion, field.look_at_nearest(
+                                     static_cast<std::size_t>(std::min(landmark_observations, landmarks)))});
   }
   return run;
 }

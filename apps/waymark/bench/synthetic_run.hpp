@@ -8,7 +8,7 @@
 namespace waymark::app {
 
 /// Per step of what is compared with other programs.
-inline constexpr int kSightings = 10;
+inline constexpr int kObservations = 10;
 
 /// A robot on a circle in a field of landmarks, one per 16 m^2, in the middle of the square that they fill.
 struct SyntheticRun {
@@ -21,7 +21,7 @@ struct SyntheticRun {
   std::vector<Step> steps;
 };
 
-/// `sightings` per step; the same arguments give the same run.
-[[nodiscard]] SyntheticRun make_synthetic_run(int landmarks, int sightings, int steps);
+/// `observations` per step; the same arguments give the same run.
+[[nodiscard]] SyntheticRun make_synthetic_run(int landmarks, int landmark_observations, int steps);
 
 }  // namespace waymark::app

@@ -73,7 +73,7 @@ def velocities(log):
             "twist": {"linear": vector(float(row["v_mps"])), "angular": vector(0.0, 0.0, float(row["w_radps"]))}}
 
 
-def sightings(log):
+def observations(log):
     """Range and bearing as places before a camera that looks ahead."""
     scans = {}
     for stamp, row in rows(log, "observations.csv"):
@@ -130,7 +130,7 @@ def mount(log, stamp):
 
 
 def main(log, out):
-    messages = [m for kind in (joint_states, odometry, velocities, sightings, images) for m in kind(log)]
+    messages = [m for kind in (joint_states, odometry, velocities, observations, images) for m in kind(log)]
     first = min(stamp for stamp, *_ in messages)
     messages = [*mount(log, first), *camera(log, first), (first, "/chatter", "std_msgs/String", {"data": "hello"}),
                 *messages]

@@ -66,7 +66,7 @@ class ChessboardFinder final : public BoardFinder {
       if (!cv::findChessboardCorners(pixels, {grid_.columns, grid_.rows}, points)) return std::nullopt;
       refine(pixels, indices_, grid_, points);
     } catch (const cv::Exception&) {
-      return std::nullopt;  // a picture that it cannot digest shows no board
+      return std::nullopt;  // an image that it cannot digest shows no board
     }
     return numbered(indices_, points);
   }

@@ -20,7 +20,7 @@ GreyImage grey(const cv::Mat& frame) {
   return image;
 }
 
-class Video final : public PictureSource {
+class Video final : public ImageSource {
  public:
   explicit Video(const cv::VideoCapture& capture)
       : capture_(capture), frames_(capture_.get(cv::CAP_PROP_FRAME_COUNT)) {
@@ -28,18 +28,18 @@ class Video final : public PictureSource {
     if (std::isfinite(rate_hz)) every_ = std::max(1, static_cast<int>(rate_hz / kFramesPerSecond));
   }
 
-  Result<std::optional<Picture>> next() override {
+  Result<std::optional<NamedImage>> next() override {
     try {
       while (capture_.grab()) {
         if (frame_++ % every_ != 0) continue;
         cv::Mat pixels;
         if (!capture_.retrieve(pixels) || pixels.empty()) continue;
-        return std::optional(Picture{fmt::format("frame {}", frame_ - 1), grey(pixels)});
+        return std::optional(NamedImage{fmt::format("frame {}", frame_ - 1), grey(pixels)});
       }
     } catch (const cv::Exception& problem) {
       return Error{fmt::format("frame {}: {}", frame_, problem.err)};
     }
-    return std::optional<Picture>{};
+    return std::optional<NamedImage>{};
   }
 
   [[nodiscard]] double progress() const override {
@@ -56,7 +56,7 @@ class Video final : public PictureSource {
 
 }  // namespace
 
-std::unique_ptr<PictureSource> open_video(const std::filesystem::path& path) {
+std::unique_ptr<ImageSource> open_video(const std::filesystem::path& path) {
   cv::VideoCapture capture;
   try {
     if (capture.open(path.string(), cv::CAP_FFMPEG)) return std::make_unique<Video>(capture);
