@@ -63,7 +63,7 @@ TEST(CandidatePrediction, IsWhereTheCornerIsAtItsDepth) {
   EXPECT_TRUE(matrix_near(at->pixel, world.pixel(world.corner), 1e-9));
 }
 
-TEST(CandidatePrediction, CovarianceIsThatOfRobotAnchorRayVibrationAndWandering) {
+TEST(CandidatePrediction, CovarianceIsThatOfRobotAnchorRayJitterAndPatchDrift) {
   OneCandidate world({.landmark_noise_px = 0.3, .jitter_deg = 0.2});
   world.move({0.4, 0.1, 0.05}, 0.02);
   const Camera& camera = world.prediction.camera();
@@ -87,8 +87,9 @@ TEST(CandidatePrediction, CovarianceIsThatOfRobotAnchorRayVibrationAndWandering)
   P.block<2, 2>(6, 6) = world.candidate.xy_covariance;
   const Eigen::Matrix<double, 2, 8> H = test::numeric_jacobian(pixel, x);
   const Eigen::Vector3d p_camera = world.in_camera(world.corner);
-  const Eigen::Matrix2d J =
-      world.prediction.noise().vibration(p_camera, camera.project(p_camera)->dpixel_dpoint)[0].J.topRows<2>();
+  const Eigen::Matrix2d J = world.prediction.noise()
+                                .attitude_jitter(p_camera, camera.project(p_camera)->dpixel_dpoint)[0]
+                                .J.topRows<2>();
   const double process_noise_px2 = world.prediction.noise().process_noise_px2(
       world.corner, camera.pose(anchor).p_world_camera, camera.pose(here).p_world_camera);
   EXPECT_GT(process_noise_px2, 0.0);

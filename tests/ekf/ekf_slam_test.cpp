@@ -56,7 +56,7 @@ TEST(EkfSlam, AMisreadIdentityIsGatedAndChangesNothing) {
   EkfSlam filter = make(world);
   drive(filter, world, 50);
   const auto before = filter.pose();
-  Observation misread = world.linearize_view(0);
+  Observation misread = world.sight(0);
   misread.id->number = 4;
   const auto& correction = filter.correct({&misread, 1});
   EXPECT_EQ(correction.innovations[0].outcome, Outcome::kGated);
@@ -86,7 +86,7 @@ TEST(EkfSlam, TellsHowLikelyAnObservationWas) {
   EkfSlam filter({ekf::Consistency::kStandard, 20}, world.sensor());
   drive(filter, world, 30);
   for (const int sighted : {0, 3}) {  // the landmark that it says it is of, and another: gated
-    Observation seen = world.linearize_view(sighted);
+    Observation seen = world.sight(sighted);
     seen.id->number = 0;
     const auto z = std::get<RangeBearing>(seen.value);
     const double both = plain_log_density<RangeBearingModel>(filter, world.mount(), 0, seen, z);
@@ -101,13 +101,13 @@ TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
   EkfSlam filter({ekf::Consistency::kInvariant, 8, ekf::Eviction::kNone}, world.sensor());
   drive(filter, world, 10);
-  std::vector<Observation> scan(6, world.linearize_view(0));
+  std::vector<Observation> scan(6, world.sight(0));
   scan[0].value = RangeBearing{std::numeric_limits<double>::quiet_NaN(), 0.0};
   scan[1].id.reset();
   scan[2].value = Pixel{1.0, 2.0};
   scan[3].covariance = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   scan[5].id = LandmarkId{LandmarkId::Family::kMarker, 99};
-  scan.push_back(world.linearize_view(0));
+  scan.push_back(world.sight(0));
   const auto& correction = filter.correct(scan);
   const std::vector<Outcome> expected{Outcome::kUnusable, Outcome::kUnidentified, Outcome::kUnusable,
                                       Outcome::kUnusable, Outcome::kMatched,      Outcome::kMapFull,
@@ -133,7 +133,7 @@ TEST(EkfSlam, AFullMapGivesItsLeastUsefulLandmarkForANewOne) {
     CircleWorld world(6);
     EkfSlam filter({ekf::Consistency::kInvariant, 8, evict}, world.sensor());
     drive(filter, world, 20);
-    Observation unseen = world.linearize_view(3);
+    Observation unseen = world.sight(3);
     unseen.id->number = 99;
     const auto& correction = filter.correct({&unseen, 1});
     EXPECT_EQ(correction.innovations[0].outcome, Outcome::kAdded);
@@ -397,7 +397,7 @@ TEST(EkfSlam, AHeldMapStaysAsItIsAndTakesNothingIn) {
   ASSERT_TRUE(filter.load(saved));
   filter.hold_landmarks();
   drive(filter, world, 100);
-  Observation unknown = world.linearize_view(0);
+  Observation unknown = world.sight(0);
   unknown.id->number = 99;
   EXPECT_EQ(filter.correct({&unknown, 1}).count(Outcome::kNotInMap), 1);
   const MapState after = filter.save();

@@ -23,7 +23,7 @@ MapState map_of(CircleWorld& world) {
 void drive_round(Filter& filter, CircleWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) {
     filter.predict(world.move());
-    const Observation seen = world.linearize_view((3 * i) % 8);
+    const Observation seen = world.sight((3 * i) % 8);
     filter.correct({&seen, 1});
   }
 }
@@ -95,7 +95,7 @@ TEST(Localizer, TellsAnotherPlaceByTwoLandmarksWhenItHasDrivenForLong) {
       Motion motion = world.move();
       motion.duration_s = 0.1;
       filter.predict(motion);
-      const Observation seen = world.linearize_view(i % 2);
+      const Observation seen = world.sight(i % 2);
       if (i % 5 == 0) filter.correct({&seen, 1});
     }
     ASSERT_TRUE(filter.refusal()) << "seed " << seed;
@@ -108,7 +108,7 @@ TEST(Localizer, AMisreadNumberIsNoOtherPlace) {
     CircleWorld world(seed);
     const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
     Localizer& filter = *localizer;
-    Observation misread = world.linearize_view(1);
+    Observation misread = world.sight(1);
     misread.id->number = 5;
     filter.correct({&misread, 1});
     drive_round(filter, world, 20);
@@ -134,7 +134,7 @@ TEST(Localizer, WaitsWhileThereIsOnlyOneLandmarkToSee) {
   Localizer& filter = *localizer;
   for (int i = 0; i < 100; ++i) {
     filter.predict(world.move());
-    const Observation seen = world.linearize_view(2);
+    const Observation seen = world.sight(2);
     filter.correct({&seen, 1});
   }
   EXPECT_FALSE(filter.knows_pose());

@@ -42,7 +42,7 @@ TEST(NearbyLandmarks, TheLargestSigmaIsOfAllLandmarks) {
 }
 
 TEST(NearbyLandmarks, ThoseOutOfReachOfACompressedMapAreAskedNowAndThen) {
-  PointMap map({.capacity = 400, .compressed = Compress::kAlways, .region = 48}, 0, 1);
+  PointMap map({.capacity = 400, .compressed = Compress::kAlways, .submap = 48}, 0, 1);
   for (int k = 0; k < 300; ++k)
     map.append({0.5 * k, 0.0}, 1e-4 * Eigen::Matrix2d::Identity(), {},
                {.id = {LandmarkId::Family::kMarker, k}});

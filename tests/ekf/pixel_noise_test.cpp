@@ -29,7 +29,7 @@ TEST(PixelNoise, OfASearchIsThatOfAWholePixelAndThatOfTheModel) {
   EXPECT_TRUE(matrix_near(noise.of_search(), (1.0 / 12.0 + 0.04) * Eigen::Matrix2d::Identity(), 1e-15));
 }
 
-TEST(PixelNoise, AVibrationTurnsTheCameraAboutItsXAndItsZAxis) {
+TEST(PixelNoise, AJitterTurnsTheCameraAboutItsXAndItsZAxis) {
   const PixelNoise noise({.jitter_deg = 0.3});
   const Camera camera({.distortion = {.k1 = -0.1}});
   const Eigen::Vector3d p_camera(0.4, -0.3, 2.0);
@@ -47,9 +47,9 @@ TEST(PixelNoise, AVibrationTurnsTheCameraAboutItsXAndItsZAxis) {
   EXPECT_TRUE(matrix_near(terms[0].J.topRows<2>(), test::numeric_jacobian(image, none, 1e-4), 1e-7));
 }
 
-TEST(PixelNoise, AnImageForgetsTheVibrationOfTheLastOne) {
+TEST(PixelNoise, AnImageForgetsTheJitterOfTheLastOne) {
   const PixelNoise noise({.jitter_deg = 0.3});
-  ASSERT_TRUE(noise.vibrates());
+  ASSERT_TRUE(noise.has_jitter());
   State state(3, 1, Consistency::kInvariant, 1, 1);
   noise.begin_image(state);
   EXPECT_EQ(state.errors_covariance(0, 0), Eigen::Matrix2d::Identity());
@@ -57,7 +57,7 @@ TEST(PixelNoise, AnImageForgetsTheVibrationOfTheLastOne) {
 
 TEST(PixelNoise, ACameraThatIsStillHasNoErrors) {
   const PixelNoise noise({.jitter_deg = 0.0});
-  EXPECT_FALSE(noise.vibrates());
+  EXPECT_FALSE(noise.has_jitter());
   State state(3, 1, Consistency::kInvariant);
   noise.begin_image(state);
   EXPECT_FALSE(noise.attitude_jitter({0.1, 0.2, 1.0}, Eigen::Matrix<double, 2, 3>::Ones())[0].takes_part());

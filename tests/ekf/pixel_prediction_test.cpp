@@ -40,7 +40,7 @@ TEST(PixelPrediction, LinearizesAPointAndARayAtThePresentEstimate) {
   ASSERT_TRUE(of_point && h);
   EXPECT_EQ(of_point->landmark, map.feature(0).element);
   EXPECT_EQ(of_point->anchor, -1);
-  EXPECT_EQ(of_point->nu, point.z_px - h->predicted);  // the vibration of a new image is expected to be 0
+  EXPECT_EQ(of_point->nu, point.z_px - h->predicted);  // the jitter of a new image is expected to be 0
   EXPECT_EQ(of_point->H_pose, h->H_pose);
   EXPECT_EQ(of_point->H_landmark, h->H_landmark);
   EXPECT_EQ(of_point->R, point.R);

@@ -21,7 +21,7 @@ class ScanUpdateTest : public testing::Test {
   void accept(double power) {
     belief_.load_sample();
     const kernels::LandmarkObservation observation =
-        model_.observation(test::range_bearing(3.8, 0.0), 0, belief_);
+        model_.landmark_observation(test::range_bearing(3.8, 0.0), 0, belief_);
     update_.accept(observation, 0, power, belief_.compare(observation), belief_);
   }
 
@@ -55,7 +55,7 @@ TEST_F(ScanUpdateTest, WhatBringsHardlyAnyNewsMovesNothing) {
 TEST_F(ScanUpdateTest, WhatSomeParticlesTakeMovesNone) {
   belief_.landmarks.travel(1.0);
   const float takers[101] = {};
-  update_.accept_by(takers, model_.observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
+  update_.accept_by(takers, model_.landmark_observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
   EXPECT_EQ(update_.enkf_updates(), 0);
   EXPECT_EQ(update_.accepted()[0].takers, takers);
   update_.begin();
@@ -66,7 +66,7 @@ TEST_F(ScanUpdateTest, AnObservationShapesTheMotionInFastSlam2Alone) {
   accept(0.6);
   EXPECT_TRUE(update_.accepted()[0].shapes_motion);
   ScanUpdate first({.proposal = ProposalKind::kMotion}, belief_.blocks);
-  first.accept_by(nullptr, model_.observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
+  first.accept_by(nullptr, model_.landmark_observation(test::range_bearing(3.8, 0.0), 0, belief_), 0.6);
   EXPECT_FALSE(first.accepted()[0].shapes_motion);
 }
 

@@ -22,7 +22,7 @@ constexpr double kFairlySure = 0.1;
 
 BoundedMap::BoundedMap(const PixelSlamOptions& options, const Camera& camera, int threads)
     : map_(options.capacity, kMaxAnchors, options.consistency, threads,
-           PixelNoise(options).vibrates() ? 1 : 0),
+           PixelNoise(options).has_jitter() ? 1 : 0),
       management_(options.evict, options.capacity),
       camera_(camera),
       min_rho_per_m_(1.0 / options.depth.farthest_m) {

@@ -131,27 +131,27 @@ Outcome DepthInitialiser::begin(LandmarkId id, const Eigen::Vector2d& z_px, cons
   if (at_once && !map_.make_room()) return Outcome::kMapFull;
   if (!anchor_) anchor_ = map_.map().add_anchor();
   const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * R * ray->dxy_dpixel.transpose();
-  const ErrorTerms shaken = jittered_ray(*ray);
+  const ErrorTerms jittered = jittered_ray(*ray);
   if (at_once) {
     const auto [rho, sigma] = unknown_depth(options_.depth);
-    map_.add_ray(id, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, ray_covariance(xy_covariance, sigma), shaken,
-                 1);
+    map_.add_ray(id, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, ray_covariance(xy_covariance, sigma),
+                 jittered, 1);
     return Outcome::kAdded;
   }
-  const Eigen::Matrix2d J = shaken[0].J.topRows<2>();
+  const Eigen::Matrix2d J = jittered[0].J.topRows<2>();
   map_.map().hold(*anchor_);
   slot->start(id, *anchor_, ray->xy, xy_covariance + J * J.transpose());
   return Outcome::kAdded;
 }
 
-/// What a vibration of the camera does to the (x, y) of the ray that is seen at a pixel.
+/// What an attitude jitter of the camera does to the (x, y) of the ray that is seen at a pixel.
 ErrorTerms DepthInitialiser::jittered_ray(const PixelRay& ray) const {
   const Eigen::Vector3d direction = ray.xy.homogeneous();
-  ErrorTerms shaken;
+  ErrorTerms jittered;
   if (const auto image = prediction_.camera().project(direction))
-    shaken = prediction_.noise().attitude_jitter(direction, image->dpixel_dpoint);
-  shaken[0].J.topRows<2>() = (-ray.dxy_dpixel * shaken[0].J.topRows<2>()).eval();
-  return shaken;
+    jittered = prediction_.noise().attitude_jitter(direction, image->dpixel_dpoint);
+  jittered[0].J.topRows<2>() = (-ray.dxy_dpixel * jittered[0].J.topRows<2>()).eval();
+  return jittered;
 }
 
 void DepthInitialiser::give_up(Candidate& candidate) {

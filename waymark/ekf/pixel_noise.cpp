@@ -19,23 +19,23 @@ PixelNoise::PixelNoise(const PixelSlamOptions& options)
       model_(options.model_sigma_px * options.model_sigma_px * Eigen::Matrix2d::Identity()),
       search_(model_ + kRounding_px2 * Eigen::Matrix2d::Identity()),
       landmark_noise_px_(options.landmark_noise_px),
-      vibration_rad_(to_radians(options.jitter_deg)) {}
+      jitter_rad_(to_radians(options.jitter_deg)) {}
 
 Eigen::Matrix2d PixelNoise::of(const Observation& observation) const {
   return model_ + observation.covariance.value_or(own_);
 }
 
 void PixelNoise::begin_image(State& state) const {
-  if (vibrates()) state.propagate_bias(0, 0.0);
+  if (has_jitter()) state.propagate_bias(0, 0.0);
 }
 
 ErrorTerms PixelNoise::attitude_jitter(const Eigen::Vector3d& p_camera,
                                        const Eigen::Matrix<double, 2, 3>& J) const {
   ErrorTerms terms;
-  if (!vibrates()) return terms;
+  if (!has_jitter()) return terms;
   terms[0].pair = 0;
-  terms[0].J.topRows<2>() << vibration_rad_ * J * Eigen::Vector3d::UnitX().cross(p_camera),
-      vibration_rad_ * J * Eigen::Vector3d::UnitZ().cross(p_camera);
+  terms[0].J.topRows<2>() << jitter_rad_ * J * Eigen::Vector3d::UnitX().cross(p_camera),
+      jitter_rad_ * J * Eigen::Vector3d::UnitZ().cross(p_camera);
   return terms;
 }
 

@@ -9,8 +9,8 @@
 namespace waymark::ekf {
 
 /// In what ways the pixel of a landmark differs from where the landmark is (docs/camera.md, "What a pixel is
-/// worth"): noise that is new in every observation, a vibration of the camera that all observations of one
-/// image share, and the wandering of a patch, which is an error of the landmark. All functions are O(1).
+/// worth"): noise that is new in every observation, an attitude jitter of the camera that all observations of
+/// one image share, and the wandering of a patch, which is an error of the landmark. All functions are O(1).
 class PixelNoise {
  public:
   explicit PixelNoise(const PixelSlamOptions& options);
@@ -20,11 +20,11 @@ class PixelNoise {
   /// R of a pixel that is to be found, 2x2, px^2: known to the whole pixel.
   [[nodiscard]] const Eigen::Matrix2d& of_search() const { return search_; }
 
-  /// Whether the camera vibrates: the state then holds one pair of biases for it, pair 0.
-  [[nodiscard]] bool vibrates() const { return vibration_rad_ > 0.0; }
+  /// Whether the camera has attitude jitter: the state then holds one pair of biases for it, pair 0.
+  [[nodiscard]] bool has_jitter() const { return jitter_rad_ > 0.0; }
   /// A new image: what the camera's pitch and roll were is forgotten. O(n) for a state of n values.
   void begin_image(State& state) const;
-  /// What a vibration about the camera's x and z axis does to the pixel of a point, d(u, v)/d(pair 0).
+  /// What an attitude jitter about the camera's x and z axis does to the pixel of a point, d(u, v)/d(pair 0).
   /// `p_camera` is the point in the camera frame, up to a factor, J = d(u, v)/d p_camera.
   [[nodiscard]] ErrorTerms attitude_jitter(const Eigen::Vector3d& p_camera,
                                            const Eigen::Matrix<double, 2, 3>& J) const;
@@ -39,7 +39,7 @@ class PixelNoise {
   Eigen::Matrix2d model_;     ///< of every pixel besides
   Eigen::Matrix2d search_;    ///< of a pixel that is to be found
   double landmark_noise_px_;  ///< in a turn of the view by 1 deg
-  double vibration_rad_;
+  double jitter_rad_;
 };
 
 }  // namespace waymark::ekf

@@ -8,18 +8,18 @@
 namespace waymark::ekf {
 namespace {
 
-/// With kAuto a map is compressed when it is six times a region: below that it costs more than it saves.
+/// With kAuto a map is compressed when it is six times a submap: below that it costs more than it saves.
 Compression compression(const EkfOptions& options) {
-  if (options.odometry.estimate) return {options.region, options.capacity};
+  if (options.odometry.estimate) return {options.submap, options.capacity};
   switch (options.compressed) {
     case Compress::kAlways:
-      return {options.region, std::max(options.region, options.loaded)};
+      return {options.submap, std::max(options.submap, options.loaded)};
     case Compress::kNever:
-      return {options.region, options.capacity};
+      return {options.submap, options.capacity};
     case Compress::kAuto:
       break;
   }
-  return {options.region, std::max(6 * options.region, options.loaded)};
+  return {options.submap, std::max(6 * options.submap, options.loaded)};
 }
 
 }  // namespace

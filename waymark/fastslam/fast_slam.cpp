@@ -147,7 +147,7 @@ void FastSlam::accept() {
 
 void FastSlam::accept(std::size_t index) {
   const int landmark = scan_.landmarks[index];
-  update_.accept(model_.observation(scan_.observations[index], landmark, belief_), landmark,
+  update_.accept(model_.landmark_observation(scan_.observations[index], landmark, belief_), landmark,
                  update_.power(landmark, belief_), scan_.moments[index], belief_);
   belief_.observe(landmark, scan_.observations[index]);
 }

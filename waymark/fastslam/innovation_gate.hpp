@@ -23,7 +23,7 @@ class InnovationGate {
   /// The innovation of an observation against a touched landmark. Needs Belief::load_sample().
   [[nodiscard]] InnovationMoments compare(const Observation& observation, int landmark,
                                           Belief& belief) const {
-    return belief.compare(model_.observation(observation, landmark, belief));
+    return belief.compare(model_.landmark_observation(observation, landmark, belief));
   }
 
   /// Chi-square quantile of the NIS for 1 or 2 degrees of freedom.

@@ -140,7 +140,7 @@ void ParticleMatcher::offer_choices(std::size_t index, const Scan& scan, Belief&
     const auto* choice = association_.offer(i, pair.landmark, range_m(observation), existence);
     if (choice == nullptr) continue;
     belief.store.touch(pair.landmark);
-    list_likelihoods(model_.observation(observation, pair.landmark, belief), choice->column, belief);
+    list_likelihoods(model_.landmark_observation(observation, pair.landmark, belief), choice->column, belief);
   }
 }
 
@@ -177,7 +177,7 @@ void ParticleMatcher::accept_choices(const Scan& scan, ScanUpdate& update, Belie
       log_weights[i] += choice.column[i] != 0.0F ? constant : 0.0;
     if (choice.landmark == GreedyMatch::kNothing) continue;
     const Observation& observation = scan.observations[as_index(choice.observation)];
-    update.accept_by(choice.column, model_.observation(observation, choice.landmark, belief), e);
+    update.accept_by(choice.column, model_.landmark_observation(observation, choice.landmark, belief), e);
   }
 }
 
