@@ -164,7 +164,7 @@ TEST(EkfSlam, CompressedItEstimatesTheSame) {
   EkfSlam compressed(
       {.consistency = ekf::Consistency::kFej, .capacity = 150, .compressed = Compress::kAlways, .submap = 48},
       {});
-  const auto linearize_view = [](int landmark, double range_m) {
+  const auto observe = [](int landmark, double range_m) {
     return Observation{LandmarkId{LandmarkId::Family::kMarker, landmark},
                        RangeBearing{range_m, 0.04 * landmark},
                        Eigen::Matrix2d(1e-3 * Eigen::Matrix2d::Identity())};
@@ -174,7 +174,7 @@ TEST(EkfSlam, CompressedItEstimatesTheSame) {
     std::vector<Observation> scan;
     for (int i = 0; i < 10; ++i) {
       const int landmark = (4 * step + i) % 150;
-      scan.push_back(linearize_view(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
+      scan.push_back(observe(landmark, 3.0 + 0.1 * landmark + 0.03 * random.normal()));
     }
     for (EkfSlam* filter : {&whole, &compressed}) {
       filter->predict({{0.0, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
@@ -225,11 +225,11 @@ class LargeInnovation : public testing::Test {
     options.gate = {1.0};
     EkfSlam filter(options, {});
     std::vector<Observation> first;
-    for (int i = 0; i < kLandmarks; ++i) first.push_back(linearize_view(i, {}, 1e-4));
+    for (int i = 0; i < kLandmarks; ++i) first.push_back(observe(i, {}, 1e-4));
     filter.correct(first);
     filter.predict({{}, prior().asDiagonal()});
     std::vector<Observation> then;
-    for (int i = 0; i < kLandmarks; ++i) then.push_back(linearize_view(i, truth(), kSigma));
+    for (int i = 0; i < kLandmarks; ++i) then.push_back(observe(i, truth(), kSigma));
     filter.correct(then);
     return filter.pose().T_world_robot;
   }
@@ -239,15 +239,15 @@ class LargeInnovation : public testing::Test {
     const Eigen::Vector3d e = difference(pose, Pose2{});
     double cost = e.dot(e.cwiseQuotient(prior()));
     for (int i = 0; i < kLandmarks; ++i) {
-      const auto z = std::get<RangeBearing>(linearize_view(i, truth(), kSigma).value);
-      const auto h = std::get<RangeBearing>(linearize_view(i, pose, kSigma).value);
+      const auto z = std::get<RangeBearing>(observe(i, truth(), kSigma).value);
+      const auto h = std::get<RangeBearing>(observe(i, pose, kSigma).value);
       cost += (std::pow(z.range_m - h.range_m, 2) + std::pow(wrap_angle(z.bearing_rad - h.bearing_rad), 2)) /
               (kSigma * kSigma);
     }
     return cost;
   }
 
-  [[nodiscard]] static Observation linearize_view(int number, const Pose2& pose, double sigma) {
+  [[nodiscard]] static Observation observe(int number, const Pose2& pose, double sigma) {
     const Eigen::Vector2d places[kLandmarks] = {{3.0, 1.0}, {2.0, -2.0}, {-1.0, 3.0}};
     const Eigen::Vector2d p = pose.inverse() * places[number];
     Observation observation{LandmarkId{LandmarkId::Family::kMarker, number},
