@@ -301,7 +301,7 @@ TEST(CompressedState, MakesTheSubmapLargerWhereMoreIsSeenAtOnce) {
       ASSERT_TRUE(whole.update(linearizations));
     }
   }
-  EXPECT_GT(compressed.active_landmarks(), kSmallSubmaps.submap);
+  EXPECT_GT(compressed.active().landmarks(), kSmallSubmaps.submap);
   EXPECT_TRUE(matrix_near(compressed.mean(), whole.mean(), 1e-9));
   EXPECT_TRUE(matrix_near(compressed.covariance(), whole.covariance(), 1e-9));
 }

@@ -76,10 +76,9 @@ std::optional<LinearizedObservation> PixelPrediction::linearize(const PixelMap& 
 }
 
 std::optional<LinearizedObservation> PixelPrediction::linearize_at_proposal(const PixelMap& map,
-                                                                            const FoundPixel& found,
-                                                                            const CameraPose& there) const {
+                                                                            const FoundPixel& found) const {
   const State& state = map.state();
-  auto seen = project_feature(map, found.feature, there,
+  auto seen = project_feature(map, found.feature, camera_.pose(state.proposed_pose()),
                               [&](int element) { return state.proposed_landmark(element); });
   if (!seen) return std::nullopt;
   seen->linearization.R = found.R;
