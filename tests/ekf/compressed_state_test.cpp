@@ -301,7 +301,7 @@ TEST(CompressedState, MakesTheRegionLargerWhereMoreIsSeenAtOnce) {
       ASSERT_TRUE(whole.update(sightings));
     }
   }
-  EXPECT_GT(compressed.active_landmarks(), kSmallRegions.region);
+  EXPECT_GT(compressed.active().landmarks(), kSmallRegions.region);
   EXPECT_TRUE(matrix_near(compressed.mean(), whole.mean(), 1e-9));
   EXPECT_TRUE(matrix_near(compressed.covariance(), whole.covariance(), 1e-9));
 }

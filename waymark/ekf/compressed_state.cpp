@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 #include <utility>
 
 namespace waymark::ekf {
@@ -25,14 +24,6 @@ int slots_for(int capacity, const Compression& compression) {
   return never ? 0 : capacity + region_capacity(capacity, compression);
 }
 
-/// P(row, :) J^T for the robot and the errors that something depends on.
-Eigen::Vector2d correlation(const Belief& state, std::size_t row, const Touched& touched) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (Eigen::Index k = 0; k < touched.head; ++k)
-    sum += state.covariance(row, touched.rows[static_cast<std::size_t>(k)]) * touched.J.col(k).head<2>();
-  return sum;
-}
-
 }  // namespace
 
 CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
@@ -44,38 +35,76 @@ CompressedState::CompressedState(int dimension, int capacity, Consistency consis
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
       passive_(dimension, active_.layout().head, slots_for(capacity, compression_),
                slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
-      local_of_slot_(static_cast<std::size_t>(capacity + active_.capacity()), -1),
-      base_(active_.offset(active_.capacity()), dimension),
-      minus_psi_base_(base_.rows(), dimension),
-      cross_(base_.rows(), dimension) {
-  slots_.reserve(static_cast<std::size_t>(capacity));
-  free_slots_.reserve(local_of_slot_.size());
-  for (auto* by_member : {&seen_, &ranked_}) by_member->reserve(static_cast<std::size_t>(active_.capacity()));
-  members_.reserve(static_cast<std::size_t>(active_.capacity()));
+      slots_(capacity, active_.capacity()),
+      recency_(active_.capacity()),
+      recall_(active_, since_, passive_, slots_.members(), active_.offset(active_.capacity())) {
   local_sightings_.reserve(kMaxSightings);
 }
 
 int CompressedState::limit() const {
-  return std::clamp(kRegionPerView * most_seen_,
+  return std::clamp(kRegionPerView * recency_.most_in_view(),
                     compressing_ ? compression_.region : std::min(compression_.onset, capacity_),
                     active_.capacity());
 }
 
+Sighting CompressedState::in_active(const Sighting& sighting) const {
+  Sighting local = sighting;
+  local.landmark = slots_.local_of(sighting.landmark);
+  if (sighting.anchor >= 0) local.anchor = slots_.local_of(sighting.anchor);
+  if (sighting.second_anchor >= 0) local.second_anchor = slots_.local_of(sighting.second_anchor);
+  return local;
+}
+
+Eigen::Vector3d CompressedState::landmark(int index) const {
+  return is_active(index) ? active_.landmark(slots_.local_of(index))
+                          : recall_.position(slots_.slot_of(index));
+}
+
+Eigen::Matrix3d CompressedState::landmark_covariance(int index) const {
+  return is_active(index) ? active_.landmark_covariance(slots_.local_of(index))
+                          : recall_.landmark(slots_.slot_of(index)).covariance;
+}
+
+Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
+  if (is_active(index)) return active_.linearization_landmark(slots_.local_of(index));
+  return linearizes_at_first_estimates(active_.consistency()) ? passive_.first_estimate(slots_.slot_of(index))
+                                                              : recall_.position(slots_.slot_of(index));
+}
+
+Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
+  return is_active(sighting.landmark)
+             ? active_.innovation_covariance(in_active(sighting))
+             : recall_.innovation_covariance(slots_.slot_of(sighting.landmark), sighting);
+}
+
+Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& sighting) const {
+  return is_active(sighting.landmark) ? active_.pose_correlation(in_active(sighting))
+                                      : recall_.pose_correlation(slots_.slot_of(sighting.landmark), sighting);
+}
+
+Sighting CompressedState::moved_back(const Sighting& sighting) const {
+  Sighting back = active_.proposal().moved_back(in_active(sighting));
+  back.landmark = sighting.landmark;
+  back.anchor = sighting.anchor;
+  back.second_anchor = sighting.second_anchor;
+  return back;
+}
+
 void CompressedState::load(const Eigen::Ref<const Eigen::VectorXd>& mean,
                            const Eigen::Ref<const Eigen::MatrixXd>& P) {
-  assert(slots_.empty());
+  assert(landmarks() == 0);
   active_.load(mean, P);
   for (int i = 0; i < active_.landmarks(); ++i) {
-    slots_.push_back(take_slot());
-    enter(slots_.back());
+    const int slot = take_slot();
+    slots_.append(slot);
+    enter(slot);
   }
 }
 
 void CompressedState::predict(const Motion& motion, const ErrorTerms& errors) {
   assert(!compressing_ || std::ranges::none_of(errors, &ErrorTerm::takes_part));
   active_.predict(motion, errors);
-  step_began_ = now_;
-  seen_this_step_ = 0;
+  recency_.begin_step();
 }
 
 void CompressedState::relax_errors(int pair, double rho) {
@@ -84,8 +113,8 @@ void CompressedState::relax_errors(int pair, double rho) {
 }
 
 void CompressedState::join() {
-  const Eigen::Vector2d displacement = active_.join_robot_rows();
-  if (compressing_) since_.carry(displacement);
+  const Eigen::Vector2d phi = active_.join_robot_rows();
+  if (compressing_) since_.carry(phi);
 }
 
 bool CompressedState::update(std::span<const Sighting> sightings) {
@@ -97,7 +126,7 @@ bool CompressedState::update(std::span<const Sighting> sightings) {
 bool CompressedState::propose(std::span<const Sighting> sightings) {
   assert(sightings.size() <= kMaxSightings);
   if (!std::exchange(proposed_, true)) {
-    ++now_;
+    recency_.begin_update();
     for (const Sighting& sighting : sightings) count(sighting.landmark);
   }
   bring_in(sightings);
@@ -116,30 +145,25 @@ void CompressedState::accept() {
   work();
 }
 
-/// What is proposed again in a step counts once.
-void CompressedState::count(int landmark) {
-  const bool again = is_active(landmark) && seen_[static_cast<std::size_t>(local_of(landmark))] > step_began_;
-  seen_this_step_ += again ? 0 : 1;
-  most_seen_ = std::max(most_seen_, seen_this_step_);
-}
-
 void CompressedState::consider(std::span<const int> landmarks) {
-  ++now_;
+  recency_.begin_update();
   for (const int landmark : landmarks) count(landmark);
   for (const int landmark : landmarks) mark_seen(landmark);
-  for (const int landmark : landmarks)
-    if (!is_active(landmark)) activate(slot_of(landmark));
+  for (const int landmark : landmarks) activate(landmark);
+}
+
+void CompressedState::count(int landmark) {
+  is_active(landmark) ? recency_.count(slots_.local_of(landmark)) : recency_.count_another();
 }
 
 void CompressedState::mark_seen(int landmark) {
-  if (is_active(landmark)) seen_[static_cast<std::size_t>(local_of(landmark))] = now_;
+  if (is_active(landmark)) recency_.mark_seen(slots_.local_of(landmark));
 }
 
 /// All that is sighted enters the region, and the sightings get its indices.
 void CompressedState::bring_in(std::span<const Sighting> sightings) {
   for (const Sighting& sighting : sightings) mark_seen(sighting.landmark);
-  for (const Sighting& sighting : sightings)
-    if (!is_active(sighting.landmark)) activate(slot_of(sighting.landmark));
+  for (const Sighting& sighting : sightings) activate(sighting.landmark);
   local_sightings_.assign(sightings.begin(), sightings.end());
   for (Sighting& sighting : local_sightings_) sighting = in_active(sighting);
 }
@@ -156,71 +180,60 @@ void CompressedState::work() {
 int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose,
                          const Eigen::Matrix3d& noise, const ErrorTerms& errors) {
   assert(landmarks() < capacity_);
-  ++seen_this_step_;
-  most_seen_ = std::max(most_seen_, seen_this_step_);
+  recency_.count_another();
   make_room();
   const int slot = take_slot();
   join();
   if (compressing_) {
     passive_.clear(slot);
-    since_.append_new(dimension(), G_pose, errors);
+    since_.append_new(active_.dimension(), G_pose, errors);
   }
   active_.add(position, G_pose, noise, errors);
   enter(slot);
-  slots_.push_back(slot);
+  slots_.append(slot);
   return landmarks() - 1;
 }
 
+/// A member of a compressed region leaves when that is closed: the accumulators still need it.
 void CompressedState::remove(int index) {
   assert(index >= 0 && index < landmarks());
-  const int slot = slot_of(index);
-  const int local = local_of(index);
-  if (local < 0) free_slots_.push_back(slot);
-  if (local >= 0) seen_[static_cast<std::size_t>(local)] = kRemoved;
-  if (local >= 0 && !compressing_)
-    leave(local);  // else when the region is closed: the accumulators still need it
-  slots_[static_cast<std::size_t>(index)] = slots_.back();
-  slots_.pop_back();
+  const int local = slots_.local_of(index);
+  if (local < 0) slots_.free(slots_.slot_of(index));
+  if (local >= 0) recency_.mark_removed(local);
+  if (local >= 0 && !compressing_) leave(local);
+  slots_.remove(index);
 }
 
+/// What left with the last region is needed until the work for it is done.
 int CompressedState::take_slot() {
-  // What left with the last region is needed until the work for it is done.
-  const bool fresh = used_slots_ < static_cast<int>(local_of_slot_.size());
-  if (free_slots_.empty() || (!passive_.done() && fresh)) return used_slots_++;
+  if (!slots_.has_freed() || (!passive_.done() && slots_.has_unused())) return slots_.take_unused();
   passive_.finish();
-  const int slot = free_slots_.back();
-  free_slots_.pop_back();
-  return slot;
+  return slots_.take_freed();
 }
 
 void CompressedState::enter(int slot) {
-  local_of_slot_[static_cast<std::size_t>(slot)] = static_cast<int>(members_.size());
-  members_.push_back(slot);
-  seen_.push_back(now_);
+  slots_.enter(slot);
+  recency_.enter();
 }
 
 void CompressedState::leave(int local) {
-  const auto at = static_cast<std::size_t>(local);
-  const int slot = members_[at];
-  if (seen_[at] == kRemoved) free_slots_.push_back(slot);
+  const bool removed = recency_.is_removed(local);
   active_.remove(local);
-  members_[at] = members_.back();
-  seen_[at] = seen_.back();
-  local_of_slot_[static_cast<std::size_t>(members_[at])] = local;
-  local_of_slot_[static_cast<std::size_t>(slot)] = -1;
-  members_.pop_back();
-  seen_.pop_back();
+  recency_.leave(local);
+  const int slot = slots_.leave(local);
+  if (removed) slots_.free(slot);
 }
 
-void CompressedState::activate(int slot) {
+void CompressedState::activate(int index) {
+  if (is_active(index)) return;
+  const int slot = slots_.slot_of(index);
   make_room();
   join();
-  const Recalled recalled = recall(slot);
-  const auto n = static_cast<Eigen::Index>(active_.size());
-  since_.append_known(base_.topRows(n), recalled.shear);
-  active_.insert(
-      recalled.position, passive_.first_estimate(slot),
-      {dimension(), cross_.data(), static_cast<std::size_t>(cross_.outerStride()), recalled.covariance});
+  const Recall::Landmark now = recall_.landmark(slot);
+  since_.append_known(now.base, now.shear);
+  active_.insert(now.position, passive_.first_estimate(slot),
+                 {active_.dimension(), now.cross.data(), static_cast<std::size_t>(now.cross.outerStride()),
+                  now.covariance});
   enter(slot);
 }
 
@@ -231,131 +244,31 @@ void CompressedState::make_room() {
 void CompressedState::close_region() {
   join();
   passive_.finish();
-  passive_.close(members_, active_, compressing_ ? &since_ : nullptr);
+  passive_.close(slots_.members(), active_, compressing_ ? &since_ : nullptr);
   let_the_others_leave();
   since_.restart(active_.size());
   closing_work_ = passive_.remaining();
   compressing_ = true;
-  most_seen_ = seen_this_step_;
+  recency_.begin_region();
   room_ = limit() - active_.landmarks();
   ++closed_regions_;
 }
 
 /// All but those seen last.
 void CompressedState::let_the_others_leave() {
-  const int in_view = std::min(seen_this_step_, kMaxSightings);
-  const auto stay = static_cast<std::size_t>(std::max(limit() / kRegionPerView, in_view));
-  Clock oldest = 0;
-  std::ptrdiff_t as_old = active_.landmarks();
-  if (stay < seen_.size()) {
-    ranked_ = seen_;
-    std::nth_element(ranked_.begin(), ranked_.begin() + static_cast<std::ptrdiff_t>(stay) - 1, ranked_.end(),
-                     std::greater<>());
-    oldest = ranked_[stay - 1];
-    as_old = static_cast<std::ptrdiff_t>(stay) -
-             std::ranges::count_if(seen_, [&](Clock seen) { return seen > oldest; });
-  }
-  for (int local = active_.landmarks() - 1; local >= 0; --local) {
-    const Clock seen = seen_[static_cast<std::size_t>(local)];
-    const bool stays = seen != kRemoved && (seen > oldest || (seen == oldest && as_old-- > 0));
-    if (!stays) leave(local);
-  }
-}
-
-/// What the region's corrections did to a passive landmark, whose columns are in base_.
-Eigen::Vector3d CompressedState::displacement(int slot) const {
-  const auto n = static_cast<Eigen::Index>(active_.size());
-  passive_.columns(slot, members_, base_.topRows(n));
-  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  moved.head(dimension()).noalias() =
-      base_.topRows(n).transpose() * Eigen::Map<const Eigen::VectorXd>(since_.tau(), n);
-  moved.head<2>() = Retraction(active_.consistency(), since_.turn()).displacement(moved.head<2>());
-  return moved;
-}
-
-CompressedState::Recalled CompressedState::recall(int slot) const {
-  const Eigen::Vector3d moved = displacement(slot);
-  Recalled now{passive_.position(slot) + moved, Eigen::Vector3d::Zero(), passive_.covariance(slot)};
-  now.shear.head<2>() = Retraction(active_.consistency(), since_.turn()).shear(moved.head<2>());
-  const auto n = static_cast<Eigen::Index>(active_.size());
-  for (int a = 0; a < dimension(); ++a) {
-    since_.multiply_phi(base_.col(a).head(n), cross_.col(a).head(n));
-    since_.multiply_minus_psi(base_.col(a).head(n), minus_psi_base_.col(a).head(n));
-    cross_.col(a).head<2>() += active_.pending() * cross_(2, a);
-  }
-  Eigen::Vector3d c = Eigen::Vector3d::Zero();
-  c.head(dimension()) = cross_.row(2);
-  now.covariance.topLeftCorner(dimension(), dimension()).noalias() +=
-      base_.topRows(n).transpose().lazyProduct(minus_psi_base_.topRows(n));
-  now.covariance += now.shear * c.transpose() + c * now.shear.transpose() +
-                    active_.covariance(2, 2) * now.shear * now.shear.transpose();
-  for (Eigen::Index i = 0; i < n; ++i)
-    cross_.row(i) +=
-        active_.covariance(static_cast<std::size_t>(i), 2) * now.shear.head(dimension()).transpose();
-  return now;
-}
-
-Eigen::Vector3d CompressedState::landmark(int index) const {
-  if (is_active(index)) return active_.landmark(local_of(index));
-  return passive_.position(slot_of(index)) + displacement(slot_of(index));
-}
-
-Eigen::Matrix3d CompressedState::landmark_covariance(int index) const {
-  return is_active(index) ? active_.landmark_covariance(local_of(index)) : recall(slot_of(index)).covariance;
-}
-
-Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
-  if (is_active(index)) return active_.linearization_landmark(local_of(index));
-  return linearizes_at_first_estimates(active_.consistency()) ? passive_.first_estimate(slot_of(index))
-                                                              : landmark(index);
-}
-
-Sighting CompressedState::in_active(const Sighting& sighting) const {
-  Sighting local = sighting;
-  local.landmark = local_of(sighting.landmark);
-  if (sighting.anchor >= 0) local.anchor = local_of(sighting.anchor);
-  if (sighting.second_anchor >= 0) local.second_anchor = local_of(sighting.second_anchor);
-  return local;
-}
-
-Sighting CompressedState::moved_back(const Sighting& sighting) const {
-  Sighting back = active_.moved_back(in_active(sighting));
-  back.landmark = sighting.landmark;
-  back.anchor = sighting.anchor;
-  back.second_anchor = sighting.second_anchor;
-  return back;
-}
-
-Eigen::Matrix2d CompressedState::innovation_covariance(const Sighting& sighting) const {
-  if (is_active(sighting.landmark)) return active_.innovation_covariance(in_active(sighting));
-  const Recalled now = recall(slot_of(sighting.landmark));
-  const Touched head(sighting.H_pose, sighting.errors);
-  const auto H_landmark = sighting.H_landmark.leftCols(dimension());
-  Eigen::Matrix2d S = sighting.R + sighting.H_landmark * now.covariance * sighting.H_landmark.transpose();
-  for (Eigen::Index k = 0; k < head.head; ++k) {
-    const std::size_t row = head.rows[static_cast<std::size_t>(k)];
-    const Eigen::Vector2d J = head.J.col(k).head<2>();
-    const Eigen::Matrix2d cross = J * (cross_.row(static_cast<Eigen::Index>(row)) * H_landmark.transpose());
-    S += J * correlation(active_, row, head).transpose() + cross + cross.transpose();
-  }
-  return S;
-}
-
-Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(const Sighting& sighting) const {
-  if (is_active(sighting.landmark)) return active_.pose_correlation(in_active(sighting));
-  (void)recall(slot_of(sighting.landmark));
-  const Touched head(sighting.H_pose, sighting.errors);
-  Eigen::Matrix<double, 3, 2> C = cross_.topRows<3>() * sighting.H_landmark.leftCols(dimension()).transpose();
-  for (int i = 0; i < 3; ++i) C.row(i) += correlation(active_, static_cast<std::size_t>(i), head).transpose();
-  return C;
+  const int in_view = std::min(recency_.in_view(), kMaxSightings);
+  Recency::Latest latest =
+      recency_.latest(static_cast<std::size_t>(std::max(limit() / kRegionPerView, in_view)));
+  for (int local = active_.landmarks() - 1; local >= 0; --local)
+    if (!latest.takes(recency_.seen(local))) leave(local);
 }
 
 Eigen::VectorXd CompressedState::mean() const {
-  Eigen::VectorXd x(3 + dimension() * landmarks());
-  const Pose2 robot = pose().T_world_robot;
+  const int dimension = active_.dimension();
+  Eigen::VectorXd x(3 + dimension * landmarks());
+  const Pose2 robot = active_.pose().T_world_robot;
   x.head<3>() << robot.x_m, robot.y_m, robot.theta_rad;
-  for (int i = 0; i < landmarks(); ++i)
-    x.segment(3 + dimension() * i, dimension()) = landmark(i).head(dimension());
+  for (int i = 0; i < landmarks(); ++i) x.segment(3 + dimension * i, dimension) = landmark(i).head(dimension);
   return x;
 }
 
@@ -363,7 +276,8 @@ Eigen::VectorXd CompressedState::mean() const {
 /// shear.
 Eigen::MatrixXd CompressedState::covariance() const {
   passive_.finish();
-  const Eigen::Index n = row(landmarks());
+  const int dimension = active_.dimension();
+  const Eigen::Index n = 3 + dimension * landmarks();
   const auto n_active = static_cast<Eigen::Index>(active_.size());
   Eigen::MatrixXd base = Eigen::MatrixXd::Zero(n_active, n);
   Eigen::MatrixXd minus_psi_base = base;
@@ -371,20 +285,22 @@ Eigen::MatrixXd CompressedState::covariance() const {
   Eigen::VectorXd shear = Eigen::VectorXd::Zero(n);
   for (int i = 0; i < landmarks(); ++i) {
     if (is_active(i)) continue;
-    shear.segment(row(i), dimension()) = recall(slot_of(i)).shear.head(dimension());
-    base.middleCols(row(i), dimension()) = base_.topRows(n_active);
-    minus_psi_base.middleCols(row(i), dimension()) = minus_psi_base_.topRows(n_active);
-    cross.middleCols(row(i), dimension()) = cross_.topRows(n_active);
+    const Recall::Landmark now = recall_.landmark(slots_.slot_of(i));
+    const Eigen::Index row = 3 + dimension * i;
+    shear.segment(row, dimension) = now.shear.head(dimension);
+    base.middleCols(row, dimension) = now.base;
+    minus_psi_base.middleCols(row, dimension) = now.minus_psi_base;
+    cross.middleCols(row, dimension) = now.cross;
   }
   const Eigen::VectorXd heading = cross.row(2);  // the shear is in it already
   Eigen::MatrixXd P = base.transpose() * minus_psi_base + shear * heading.transpose() +
                       heading * shear.transpose() - active_.covariance(2, 2) * shear * shear.transpose();
-  const auto place = [this](Eigen::Index i) {
-    const auto index = static_cast<int>(i - 3) / dimension();
-    const auto coordinate = static_cast<std::size_t>((i - 3) % dimension());
+  const auto place = [this, dimension](Eigen::Index i) {
+    const auto index = static_cast<int>(i - 3) / dimension;
+    const auto coordinate = static_cast<std::size_t>((i - 3) % dimension);
     if (i < 3) return std::pair{true, static_cast<std::size_t>(i)};
-    if (is_active(index)) return std::pair{true, active_.offset(local_of(index)) + coordinate};
-    return std::pair{false, passive_.offset(slot_of(index)) + coordinate};
+    if (is_active(index)) return std::pair{true, active_.offset(slots_.local_of(index)) + coordinate};
+    return std::pair{false, passive_.offset(slots_.slot_of(index)) + coordinate};
   };
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto [i_active, a] = place(i);

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "waymark/ekf/accumulators.hpp"
+#include "waymark/ekf/consistency.hpp"
+#include "waymark/ekf/passive_map.hpp"
+#include "waymark/ekf/sighting.hpp"
+#include "waymark/ekf/state.hpp"
+
+namespace waymark::ekf {
+
+/// The landmarks outside of the region as they are now: as they were when it was opened, and what the region
+/// has done to them since. With B the landmark's columns then, over the n_a rows of the active state,
+///
+///     p = p_0 + V(a) B^T tau,   P_ap = phi B,   P_pp = P_pp0 - B^T psi B
+///
+/// and in the invariant filter the shear along d = J (p - p_0). One landmark costs 4 n_a^2 flop.
+class Recall {
+ public:
+  /// One landmark. The columns, n_a x dimension, are views, good until the next question.
+  struct Landmark {
+    Eigen::Vector3d position;
+    Eigen::Vector3d shear;  ///< d of its coordinates
+    Eigen::Matrix3d covariance;
+    Eigen::Ref<const Eigen::MatrixXd> base;            ///< B
+    Eigen::Ref<const Eigen::MatrixXd> minus_psi_base;  ///< -psi B
+    Eigen::Ref<const Eigen::MatrixXd> cross;           ///< what it has in common with the active state
+  };
+
+  /// All of these must outlive it. `members`: the slots in the region, in the order of the active state;
+  /// `capacity`: most values of that.
+  Recall(const State& active, const Accumulators& since, PassiveMap& passive, const std::vector<int>& members,
+         std::size_t capacity);
+
+  [[nodiscard]] Landmark landmark(int slot);
+  /// Its position alone, at a part of the cost.
+  [[nodiscard]] Eigen::Vector3d position(int slot);
+
+  /// As those of Belief, of a sighting of the landmark in `slot`.
+  [[nodiscard]] Eigen::Matrix2d innovation_covariance(int slot, const Sighting& sighting);
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> pose_correlation(int slot, const Sighting& sighting);
+
+ private:
+  [[nodiscard]] Retraction retraction() const { return {active_.consistency(), since_.turn()}; }
+  [[nodiscard]] Eigen::Vector3d displacement(int slot, const Retraction& retraction);
+  [[nodiscard]] Eigen::Vector2d correlation(std::size_t row, const Touched& touched) const;
+
+  const State& active_;
+  const Accumulators& since_;
+  PassiveMap& passive_;
+  const std::vector<int>& members_;
+  // Of the landmark asked for last.
+  Eigen::MatrixXd base_;
+  Eigen::MatrixXd minus_psi_base_;
+  Eigen::MatrixXd cross_;
+};
+
+}  // namespace waymark::ekf
