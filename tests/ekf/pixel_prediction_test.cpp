@@ -65,10 +65,9 @@ TEST(PixelPrediction, AtTheProposalItIsWhatItWillBeThere) {
   const auto sighting = world.prediction.linearize(map, found, world.here());
   ASSERT_TRUE(sighting);
   ASSERT_TRUE(map.state().propose({&*sighting, 1}));
-  const CameraPose there = world.prediction.camera().pose(map.state().proposed_pose());
   for (const int feature : {0, 1}) {
     const FoundPixel other{feature, {150.0, 100.0}, Eigen::Matrix2d::Identity()};
-    const auto proposed = world.prediction.linearize_at_proposal(map, other, there);
+    const auto proposed = world.prediction.linearize_at_proposal(map, other);
     PointAndRay after({.consistency = Consistency::kStandard});
     ASSERT_TRUE(after.map.map().state().update({&*sighting, 1}));
     const auto reached = after.prediction.linearize(after.map.map(), other, after.here());

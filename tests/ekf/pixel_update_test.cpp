@@ -150,6 +150,47 @@ TEST(PixelUpdate, OneThatIsConfirmedNeedsNobodyToAgree) {
   EXPECT_LT(world.map.map().state().pose().covariance.trace(), variance);
 }
 
+/// A ray of unsure depth, which is believed to lead to 1.5 times its distance, seen from elsewhere.
+struct UnsureRay : PixelWorld {
+  explicit UnsureRay(const PixelSlamOptions& options = {})
+      : PixelWorld(options), update(options, map, prediction) {
+    const Eigen::Vector3d camera = here().p_world_camera;
+    found.feature = add_ray(1, camera + 1.5 * (seen - camera), 0.2);
+    move({0.8, -0.3, 0.1}, 1e-3);
+    found = find(found.feature, seen);
+  }
+  [[nodiscard]] Sighting sighting() const { return *prediction.linearize(map.map(), found, here()); }
+  [[nodiscard]] double error_m() const { return (prediction.place(map.map(), found.feature) - seen).norm(); }
+
+  Eigen::Vector3d seen{3.0, 0.5, 0.7};
+  FoundPixel found{};
+  PixelUpdate update;
+};
+
+TEST(PixelUpdate, ARayOfUnsureDepthLandsWhereItsPixelIs) {
+  UnsureRay iterated;
+  UnsureRay once({.init = Initialization::kArticle});
+  EXPECT_GT(iterated.sighting().nu.norm(), 10.0);
+  ASSERT_TRUE(iterated.update.confirm(iterated.found));
+  ASSERT_TRUE(once.update.confirm(once.found));
+  EXPECT_LT(iterated.sighting().nu.norm(), 0.5);
+  EXPECT_LT(iterated.sighting().nu.norm(), 0.5 * once.sighting().nu.norm());
+  EXPECT_LT(iterated.error_m(), once.error_m());
+}
+
+TEST(PixelUpdate, IsLinearisedOnceWhereTheArticleIsFollowedAndWithFirstEstimates) {
+  for (const PixelSlamOptions& options : {PixelSlamOptions{.init = Initialization::kArticle},
+                                          PixelSlamOptions{.consistency = Consistency::kFej}}) {
+    UnsureRay world(options);
+    UnsureRay plain(options);
+    ASSERT_TRUE(world.update.confirm(world.found));
+    const Sighting sighting = plain.sighting();
+    ASSERT_TRUE(plain.map.map().state().update({&sighting, 1}));
+    EXPECT_EQ(world.map.map().state().mean(), plain.map.map().state().mean());
+    EXPECT_EQ(world.map.map().state().covariance(), plain.map.map().state().covariance());
+  }
+}
+
 TEST(PixelUpdate, AllocatesNothingOnceItIsMade) {
   BeforeAWall world(40);
   const test::AllocationCount count;

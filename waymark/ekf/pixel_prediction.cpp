@@ -76,10 +76,11 @@ std::optional<Sighting> PixelPrediction::linearize(const PixelMap& map, const Fo
   return seen->sighting;
 }
 
-std::optional<Sighting> PixelPrediction::linearize_at_proposal(const PixelMap& map, const FoundPixel& found,
-                                                               const CameraPose& there) const {
+std::optional<Sighting> PixelPrediction::linearize_at_proposal(const PixelMap& map,
+                                                               const FoundPixel& found) const {
   const State& state = map.state();
-  auto seen = look(map, found.feature, there, [&](int element) { return state.proposed_landmark(element); });
+  auto seen = look(map, found.feature, camera_.pose(state.proposed_pose()),
+                   [&](int element) { return state.proposed_landmark(element); });
   if (!seen) return std::nullopt;
   seen->sighting.R = found.R;
   seen->sighting.nu = found.z_px - seen->predicted - state.proposed_expected(seen->sighting.errors);

@@ -38,9 +38,9 @@ class PixelPrediction {
   /// Nothing where the landmark cannot be seen.
   [[nodiscard]] std::optional<Sighting> linearize(const PixelMap& map, const FoundPixel& found,
                                                   const CameraPose& here) const;
-  /// The same at what the state proposes; `there` is the camera at the proposed pose.
-  [[nodiscard]] std::optional<Sighting> linearize_at_proposal(const PixelMap& map, const FoundPixel& found,
-                                                              const CameraPose& there) const;
+  /// The same at what the state proposes, with Jacobians there.
+  [[nodiscard]] std::optional<Sighting> linearize_at_proposal(const PixelMap& map,
+                                                              const FoundPixel& found) const;
 
   /// A landmark of the map in the picture that is about to be looked at, with S = H P H^T + R; lets it wander
   /// before. Nothing where it should not be looked for: outside of the picture, or seen from so far away from

@@ -4,6 +4,20 @@
 #include "waymark/core/gaussian.hpp"
 
 namespace waymark::ekf {
+namespace {
+
+/// A bound on the work. What has not converged by then is used as it is: any of these linearisations is
+/// better than the first.
+constexpr int kMostIterations = 5;
+
+/// The article linearises once.
+int most_iterations(const PixelSlamOptions& options) {
+  const bool as_published =
+      options.init == Initialization::kArticle || options.update == UpdateMethod::kTextbook;
+  return as_published ? 0 : kMostIterations;
+}
+
+}  // namespace
 
 PixelUpdate::PixelUpdate(const PixelSlamOptions& options, BoundedMap& map, const PixelPrediction& prediction)
     : map_(map),
@@ -12,13 +26,14 @@ PixelUpdate::PixelUpdate(const PixelSlamOptions& options, BoundedMap& map, const
       gates_alone_(options.update == UpdateMethod::kTextbook),
       consensus_(State::kMaxSightings, gate_,
                  prediction.camera().width_px() * prediction.camera().height_px()),
-      update_(options, prediction) {
+      update_(most_iterations(options), Likelihood::kGaussian, options.consistency) {
   innovations_.reserve(static_cast<std::size_t>(options.capacity));
   block_.reserve(State::kMaxSightings);
   sightings_.reserve(State::kMaxSightings);
   nus_.reserve(State::kMaxSightings);
   told_.reserve(State::kMaxSightings);
   used_.reserve(State::kMaxSightings);
+  used_sightings_.reserve(State::kMaxSightings);
   if (gates_alone_) map.map().state().use_textbook_update();
 }
 
@@ -39,9 +54,9 @@ std::optional<Innovation> PixelUpdate::confirm(const FoundPixel& found) {
   const auto compared = compare(found, prediction_.camera_pose(map_.map()));
   if (!compared) return std::nullopt;
   const Innovation confirmed = innovation(found, *compared);
-  update_.clear();
-  update_.add(found, compared->sighting);
-  static_cast<void>(update_.apply(map_.map()));
+  used_.assign(1, 0);
+  used_sightings_.assign(1, compared->sighting);
+  static_cast<void>(apply({&found, 1}));
   return confirmed;
 }
 
@@ -103,35 +118,43 @@ void PixelUpdate::judge() {
 }
 
 void PixelUpdate::update_matched(std::span<const FoundPixel> found) {
-  update_.clear();
   used_.clear();
+  used_sightings_.clear();
   for (std::size_t k = 0; k < block_.size(); ++k) {
     if (innovations_[block_[k]].outcome != Outcome::kMatched) continue;
-    update_.add(found[block_[k]], sightings_[k]);
     used_.push_back(block_[k]);
+    used_sightings_.push_back(sightings_[k]);
   }
-  apply();
+  update_used(found);
 }
 
 /// Updates with those that were gated but fit where the others have led. Their NIS stays what it was.
 void PixelUpdate::rescue(std::span<const FoundPixel> found) {
-  update_.clear();
   used_.clear();
+  used_sightings_.clear();
   const CameraPose here = prediction_.camera_pose(map_.map());
   for (const std::size_t i : block_) {
     if (innovations_[i].outcome != Outcome::kGated) continue;
     const auto compared = compare(found[i], here);
     if (!compared || !consensus_.rescues(compared->nis, compared->S)) continue;
     innovations_[i].outcome = Outcome::kMatched;
-    update_.add(found[i], compared->sighting);
     used_.push_back(i);
+    used_sightings_.push_back(compared->sighting);
   }
-  apply();
+  update_used(found);
 }
 
-void PixelUpdate::apply() {
-  if (update_.apply(map_.map())) return;
+void PixelUpdate::update_used(std::span<const FoundPixel> found) {
+  if (used_.empty() || apply(found)) return;
   for (const std::size_t i : used_) innovations_[i].outcome = Outcome::kUnusable;
+}
+
+/// False, and nothing changed, if S is not positive definite.
+bool PixelUpdate::apply(std::span<const FoundPixel> found) {
+  PixelMap& map = map_.map();
+  return update_.apply(map.state(), used_sightings_, [&](std::size_t k, const Sighting&) {
+    return prediction_.linearize_at_proposal(map, found[used_[k]]);
+  });
 }
 
 void PixelUpdate::note_usefulness(std::span<const FoundPixel> found) {

@@ -10,7 +10,7 @@
 #include "waymark/core/filter.hpp"
 #include "waymark/ekf/bounded_map.hpp"
 #include "waymark/ekf/consensus.hpp"
-#include "waymark/ekf/iterated_pixel_update.hpp"
+#include "waymark/ekf/iterated_update.hpp"
 #include "waymark/ekf/pixel_prediction.hpp"
 #include "waymark/ekf/pixel_slam_options.hpp"
 
@@ -18,8 +18,9 @@ namespace waymark::ekf {
 
 /// The update of the state with the pixels in which landmarks were found, in blocks of at most
 /// State::kMaxSightings, each linearised at what the earlier ones found: first those of a block that agree
-/// (Consensus), then those that fit where these have led. With UpdateMethod::kTextbook each is gated by
-/// itself, as in the article. Takes its memory once.
+/// (Consensus), then those that fit where these have led. Both are linearised anew where they lead, as a ray
+/// of unsure depth needs it that is seen from elsewhere, but not in the modes that are the article's. With
+/// UpdateMethod::kTextbook each is gated by itself, as in the article. Takes its memory once.
 class PixelUpdate {
  public:
   /// The map and the prediction must outlive it. Has the state update itself as the options say.
@@ -46,7 +47,8 @@ class PixelUpdate {
   void judge();
   void update_matched(std::span<const FoundPixel> found);
   void rescue(std::span<const FoundPixel> found);
-  void apply();
+  void update_used(std::span<const FoundPixel> found);
+  [[nodiscard]] bool apply(std::span<const FoundPixel> found);
   void note_usefulness(std::span<const FoundPixel> found);
 
   BoundedMap& map_;
@@ -54,7 +56,7 @@ class PixelUpdate {
   double gate_;       ///< of the NIS of a pixel
   bool gates_alone_;  ///< each by itself
   Consensus consensus_;
-  IteratedPixelUpdate update_;
+  IteratedUpdate update_;
   std::vector<Innovation> innovations_;
 
   // One per sighting of the block:
@@ -63,7 +65,9 @@ class PixelUpdate {
   std::vector<Eigen::Vector2d> nus_;
   std::vector<PoseSighting> told_;  ///< what it told about the pose
 
-  std::vector<std::size_t> used_;  ///< the pixels that are in update_
+  // One per sighting of the update:
+  std::vector<std::size_t> used_;  ///< which pixel it is
+  std::vector<Sighting> used_sightings_;
 };
 
 }  // namespace waymark::ekf
