@@ -59,10 +59,10 @@ Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOpt
 
 /// No image shows the board: what do they show?
 Error no_board(const CalibrateCameraRequest& request, const InputOptions& options, const Board& board,
-               const std::vector<View>& views) {
-  const auto unreadable = std::ranges::find(views, Fate::kUnreadable, &View::fate);
+               const std::vector<BoardView>& views) {
+  const auto unreadable = std::ranges::find(views, Fate::kUnreadable, &BoardView::fate);
   if (unreadable != views.end() &&
-      std::ranges::count(views, Fate::kUnreadable, &View::fate) == std::ssize(views))
+      std::ranges::count(views, Fate::kUnreadable, &BoardView::fate) == std::ssize(views))
     return {fmt::format("none of {} images can be read; the first: {}", views.size(), unreadable->why)};
   std::string message = fmt::format("no {} in any of {} images", describe(board), views.size());
   if (board.kind == calibrate::BoardKind::kCharuco) return {message + "; check --squares and --dictionary"};
@@ -74,7 +74,7 @@ Error no_board(const CalibrateCameraRequest& request, const InputOptions& option
   return {message + "; --corners counts where four squares meet, not the squares"};
 }
 
-Result<std::vector<View>> look(const CalibrateCameraRequest& request, const InputOptions& options,
+Result<std::vector<BoardView>> look(const CalibrateCameraRequest& request, const InputOptions& options,
                                const Board& board) {
   auto finder = calibrate::make_board_finder(board);
   if (!finder) return finder.error();
@@ -90,7 +90,7 @@ Result<std::vector<View>> look(const CalibrateCameraRequest& request, const Inpu
 
 void print_dropped(const CameraCalibration& result) {
   int alike = 0, without_board = 0;
-  for (const View& view : result.views) {
+  for (const BoardView& view : result.views) {
     if (view.fate == Fate::kAlike)
       ++alike;
     else if (view.fate == Fate::kNoBoard && !view.is_shown())
@@ -136,7 +136,7 @@ Result<void> calibrate_camera(const CalibrateCameraRequest& request) {
   if (!board) return board.error();
   auto views = look(request, config->input, *board);
   if (!views) return views.error();
-  if (std::ranges::all_of(*views, [](const View& view) { return view.corners.empty(); }))
+  if (std::ranges::all_of(*views, [](const BoardView& view) { return view.corners.empty(); }))
     return no_board(request, config->input, *board, *views);
   const auto result = calibrate::calibrate_camera(*board, *std::move(views));
   if (!result) return result.error();

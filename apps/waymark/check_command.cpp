@@ -45,7 +45,7 @@ struct Stream {
 /// Everything that one pass over a log shows.
 struct Contents {
   std::map<std::string, Stream> streams;  ///< by name
-  std::map<LandmarkId, std::int64_t> landmark_observations;
+  std::map<LandmarkId, std::int64_t> observations;
   std::int64_t unidentified = 0;
   std::optional<ImageSize> image_size;  ///< of the last image
   std::int64_t blank_images = 0;

@@ -66,7 +66,7 @@ TEST(Recency, CountsWhatIsSeenFromOnePlaceOnce) {
   recency.count(0);
   EXPECT_EQ(recency.in_view(), 1);
   EXPECT_EQ(recency.max_in_view(), 3);
-  recency.begin_region();
+  recency.begin_submap();
   EXPECT_EQ(recency.max_in_view(), 1);
 }
 

@@ -7,7 +7,7 @@
 namespace waymark::ekf {
 namespace {
 
-/// Landmarks 0 to 3 in the slots 0 to 3, all in the region.
+/// Landmarks 0 to 3 in the slots 0 to 3, all in the submap.
 Slots four() {
   Slots slots(4, 4);
   for (int i = 0; i < 4; ++i) {
@@ -37,7 +37,7 @@ TEST(Slots, TheLastLandmarkTakesTheIndexOfARemovedOne) {
   EXPECT_EQ(slots.landmarks(), 3);
   EXPECT_EQ(slots.slot_of(1), 3);
   EXPECT_EQ(slots.local_of(1), 3);
-  EXPECT_EQ(slots.members(), (std::vector<int>{0, 1, 2, 3}));  // the region still holds its place
+  EXPECT_EQ(slots.members(), (std::vector<int>{0, 1, 2, 3}));  // the submap still holds its place
 }
 
 TEST(Slots, FreedSlotsAreUsedAgain) {

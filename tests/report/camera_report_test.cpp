@@ -17,14 +17,14 @@ using calibrate::Fate;
 CameraReport sample_camera() {
   const calibrate::Board board{.corners = {5, 4}, .square_m = 0.04};
   const Camera camera({.width_px = 320, .height_px = 240});
-  std::vector<View> views;
+  std::vector<BoardView> views;
   for (int i = 0; i < 8; ++i) {
     const double turn_rad = 0.15 * (i - 3.5);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.linear() = Eigen::AngleAxisd(turn_rad, i % 2 == 0 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY())
                      .toRotationMatrix();
     T.translation() = Eigen::Vector3d(-0.08 + 0.02 * (i - 4), -0.06, 0.4);
-    View view{.name = "<photo> " + std::to_string(i),
+    BoardView view{.name = "<photo> " + std::to_string(i),
               .size = {320, 240},
               .small = GreyImage(320, 240, 120),
               .edge_px = 1.5};

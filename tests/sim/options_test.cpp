@@ -27,7 +27,7 @@ TEST(SimOptions, ScenariosDriveDifferentPaths) {
   EXPECT_EQ(scenario("random")->path.shape, Shape::kRandom);
   EXPECT_EQ(scenario("study")->path.laps, 2);
   EXPECT_EQ(scenario("report-l-shape")->path.shape, Shape::kLShape);
-  EXPECT_EQ(scenario("report-square")->wheels.odometry, OdometryKind::kVelocity);
+  EXPECT_EQ(scenario("report-square")->wheels.odometry, SimulatedOdometry::kVelocity);
 }
 
 TEST(SimOptions, AFileIsAScenarioToo) {
@@ -71,7 +71,7 @@ TEST(SimOptions, KeysSetTheirFields) {
   ASSERT_TRUE(schema.set("sim.truth_rate_hz", "0", "test").ok());
   EXPECT_EQ(options.path.shape, Shape::kFigureEight);
   EXPECT_EQ(options.world.landmarks, 7);
-  EXPECT_EQ(options.wheels.odometry, OdometryKind::kPose);
+  EXPECT_EQ(options.wheels.odometry, SimulatedOdometry::kPose);
   EXPECT_EQ(options.sensor.observe, SensorKind::kBearing);
   EXPECT_FALSE(options.sensor.identities);
   EXPECT_EQ(options.truth.rate_hz, 0.0);

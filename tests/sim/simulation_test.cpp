@@ -177,7 +177,7 @@ TEST(Simulation, IdealWheelsReproduceTheTruth) {
 
 TEST(Simulation, IdealVelocitiesReproduceTheTruth) {
   SimOptions options = ideal(Shape::kFigureEight);
-  options.wheels.odometry = OdometryKind::kVelocity;
+  options.wheels.odometry = SimulatedOdometry::kVelocity;
   options.wheels.rate_hz = 30.0;
   const Log log = simulate(options);
   const auto velocities = log.all<Velocity>();
@@ -192,7 +192,7 @@ TEST(Simulation, IdealVelocitiesReproduceTheTruth) {
 
 TEST(Simulation, IdealOdometryPosesReproduceTheTruthFromAFrameOfTheirOwn) {
   SimOptions options = ideal(Shape::kLShape);
-  options.wheels.odometry = OdometryKind::kPose;
+  options.wheels.odometry = SimulatedOdometry::kPose;
   options.truth.rate_hz = options.wheels.rate_hz;
   const Log log = simulate(options);
   const auto poses = log.all<OdometryPose>();

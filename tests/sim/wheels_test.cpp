@@ -79,7 +79,7 @@ TEST(Wheels, AssumedNoiseOfVelocitiesEqualsThatOfWheelsOnAStraightLine) {
   const WheelAngles angles{2.0, 2.0};
   const Motion with_wheels =
       wheel_motion(angles, {.wheels = geometry(wheels), .noise = assumed_noise(wheels)});
-  wheels.odometry = OdometryKind::kVelocity;
+  wheels.odometry = SimulatedOdometry::kVelocity;
   const Velocity velocity{wheel_step(angles, geometry(wheels)).distance_m, 0.0};
   const Motion without = velocity_motion(velocity, 1.0, {.wheels = {}, .noise = assumed_noise(wheels)});
   EXPECT_NEAR(without.covariance(0, 0), with_wheels.covariance(0, 0), 1e-12);
@@ -90,7 +90,7 @@ TEST(Wheels, AssumedNoiseOfVelocitiesEqualsThatOfWheelsInATurnOnTheSpot) {
   WheelOptions wheels = noisy();
   const Motion with_wheels =
       wheel_motion({-1.0, 1.0}, {.wheels = geometry(wheels), .noise = assumed_noise(wheels)});
-  wheels.odometry = OdometryKind::kPose;
+  wheels.odometry = SimulatedOdometry::kPose;
   const Pose2 turned{0.0, 0.0, wheel_step({-1.0, 1.0}, geometry(wheels)).turn_rad};
   const Motion without = odometry_pose_motion({}, turned, {.wheels = {}, .noise = assumed_noise(wheels)});
   EXPECT_NEAR(without.covariance(2, 2), with_wheels.covariance(2, 2), 1e-12);

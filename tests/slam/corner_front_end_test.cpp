@@ -32,7 +32,7 @@ struct Robot {
       : pipeline(
             filter, options, {}, {}, Observe::kPixel,
             [this](const Step& step) {
-              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.image != nullptr});
+              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.frame != nullptr});
             },
             &front_end) {}
 

@@ -12,7 +12,7 @@ Recall::Recall(const State& active, const CompressedTerms& since, PassiveSubmap&
       minus_psi_base_(base_.rows(), base_.cols()),
       cross_(base_.rows(), base_.cols()) {}
 
-/// What the region's corrections did to a landmark, whose columns are in base_ afterwards.
+/// What the submap's corrections did to a landmark, whose columns are in base_ afterwards.
 Eigen::Vector3d Recall::displacement(int slot, const Retraction& retraction) {
   const auto n = static_cast<Eigen::Index>(active_.size());
   passive_.columns(slot, members_, base_.topRows(n));

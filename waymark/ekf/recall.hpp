@@ -12,7 +12,7 @@
 
 namespace waymark::ekf {
 
-/// The landmarks outside of the region as they are now: as they were when it was opened, and what the region
+/// The landmarks outside of the submap as they are now: as they were when it was opened, and what the submap
 /// has done to them since. With B the landmark's columns then, over the n_a rows of the active state,
 ///
 ///     p = p_0 + V(a) B^T tau,   P_ap = phi B,   P_pp = P_pp0 - B^T psi B
@@ -30,7 +30,7 @@ class Recall {
     Eigen::Ref<const Eigen::MatrixXd> cross;           ///< what it has in common with the active state
   };
 
-  /// All of these must outlive it. `members`: the slots in the region, in the order of the active state;
+  /// All of these must outlive it. `members`: the slots in the submap, in the order of the active state;
   /// `capacity`: most values of that.
   Recall(const State& active, const CompressedTerms& since, PassiveSubmap& passive,
          const std::vector<int>& members, std::size_t capacity);

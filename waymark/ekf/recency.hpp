@@ -6,14 +6,14 @@
 
 namespace waymark::ekf {
 
-/// Which members of a region were seen last, and how many landmarks are seen at once. Members are known by
+/// Which members of a submap were seen last, and how many landmarks are seen at once. Members are known by
 /// their index in the active state. Nothing allocates after construction.
 class Recency {
  public:
   /// Counted by updates; a landmark that was removed was never seen.
   using Clock = std::int64_t;
 
-  /// For regions of up to `capacity` members.
+  /// For submaps of up to `capacity` members.
   explicit Recency(int capacity);
 
   /// The robot moves: what is seen from now on is seen from a new place.
@@ -29,10 +29,10 @@ class Recency {
     return seen_[static_cast<std::size_t>(member)] == kRemoved;
   }
 
-  /// Landmarks seen in this step, and most in one step of this region.
+  /// Landmarks seen in this step, and most in one step of this submap.
   [[nodiscard]] int in_view() const { return in_view_; }
   [[nodiscard]] int max_in_view() const { return max_in_view_; }
-  void begin_region() { max_in_view_ = in_view_; }
+  void begin_submap() { max_in_view_ = in_view_; }
 
   /// A member comes last, as seen now.
   void enter() { seen_.push_back(now_); }

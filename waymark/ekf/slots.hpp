@@ -5,11 +5,11 @@
 namespace waymark::ekf {
 
 /// Where the landmarks of a compressed map stand. A landmark has a slot in the passive map for as long as it
-/// is there, and a place in the active state for as long as it is a member of the region. Its index, by which
+/// is there, and a place in the active state for as long as it is a member of the submap. Its index, by which
 /// others know it, changes when another one is removed. Nothing allocates after construction.
 class Slots {
  public:
-  /// For maps of `capacity` landmarks and regions of `submap_capacity`: with so many that were removed but
+  /// For maps of `capacity` landmarks and submaps of `submap_capacity`: with so many that were removed but
   /// are still members there are slots for both together.
   Slots(int capacity, int submap_capacity);
 
@@ -28,7 +28,7 @@ class Slots {
   /// The last landmark takes the index of one that is no more. The slot is still occupied.
   void remove(int index);
 
-  /// The slot becomes the last member of the region.
+  /// The slot becomes the last member of the submap.
   void enter(int slot);
   /// The last member takes the place of one that leaves, whose slot is returned.
   int leave(int local);

@@ -25,7 +25,7 @@ struct StaticPlace {
 struct PlaceStudy {
   StaticPlace place;
   int scans = 0;
-  int landmark_observations = 0;
+  int observations = 0;
   double range_error_m = 0.0;  ///< mean of what was measured less what is true
   double bearing_error_rad = 0.0;
   Eigen::Matrix2d covariance =
@@ -33,7 +33,7 @@ struct PlaceStudy {
 
   /// In half of the scans or more.
   [[nodiscard]] bool is_usable() const {
-    return 2 * landmark_observations >= scans && landmark_observations > 1;
+    return 2 * observations >= scans && observations > 1;
   }
 };
 

@@ -40,7 +40,7 @@ Json intrinsics_json(const CameraCalibration& calibration) {
   return rows;
 }
 
-Json view_json(const View& view, const calibrate::Board& board) {
+Json view_json(const BoardView& view, const calibrate::Board& board) {
   Json json{{"name", view.name}, {"verdict", name_of(view.fate)}};
   if (!view.why.empty()) json["why"] = view.why;
   if (view.edge_px > 0.0) json["edge_px"] = rounded(view.edge_px);
@@ -55,7 +55,7 @@ Json view_json(const View& view, const calibrate::Board& board) {
 }
 
 /// (u, v) of a corner and of its residual.
-Json corners_json(const View& view) {
+Json corners_json(const BoardView& view) {
   Json rows = Json::array();
   for (std::size_t i = 0; i < view.fit.residuals_px.size(); ++i) {
     const Eigen::Vector2d &p = view.corners[i].pixel, &r = view.fit.residuals_px[i];
@@ -97,7 +97,7 @@ Json figures_json(const CameraCalibration& calibration) {
 Json shown_views_json(const CameraCalibration& calibration) {
   Json rows = Json::array();
   std::size_t images = 0;
-  for (const View& view : calibration.views) {
+  for (const BoardView& view : calibration.views) {
     const bool is_passed_over =
         !view.is_shown() && (view.fate == Fate::kAlike || view.fate == Fate::kNoBoard);
     if (is_passed_over) continue;
@@ -140,7 +140,7 @@ Result<void> write_camera_report(const CameraReport& report, const std::filesyst
 std::string camera_json_text(const CameraCalibration& calibration) {
   Json json = figures_json(calibration);
   json["views"] = Json::array();
-  for (const View& view : calibration.views) json["views"].push_back(view_json(view, calibration.board));
+  for (const BoardView& view : calibration.views) json["views"].push_back(view_json(view, calibration.board));
   return json_text(json, 2);
 }
 

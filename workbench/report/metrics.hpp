@@ -19,7 +19,7 @@ struct SmoothedFigures {
   int iterations = 0;
   bool converged = false;
   std::size_t poses = 0;
-  std::size_t landmark_observations = 0;
+  std::size_t observations = 0;
   std::vector<smooth::CalibratedKey> calibration;
   eval::Evaluation live;  ///< what the filter said live, scored against the smoothed path and map
   std::optional<eval::Evaluation> truth;  ///< the smoothed path and map, scored against the truth

@@ -83,7 +83,7 @@ class IntervalBuilder {
   const Config& config_;
   const Before& before_;
   RunGraph& run_;
-  Interval interval_;
+  KeyframeInterval interval_;
   std::optional<std::size_t> seen_at_;  // step at which the last pose saw something
   Motion motion_;
   Motion slip_;  // what the robot does beside what is measured

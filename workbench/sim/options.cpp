@@ -16,8 +16,8 @@
 namespace waymark::sim {
 namespace {
 
-constexpr Limits kProbability{0.0, 1.0};
-constexpr Limits kVariance{0.0, 1.0};
+constexpr ValueLimits kProbability{0.0, 1.0};
+constexpr ValueLimits kVariance{0.0, 1.0};
 
 void describe(Schema& schema, PathOptions& o) {
   schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random", "loop"},

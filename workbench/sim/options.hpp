@@ -13,7 +13,7 @@
 namespace waymark::sim {
 
 enum class Shape : std::uint8_t { kSquare, kLShape, kFigureEight, kRandom, kLoop };
-enum class OdometryKind : std::uint8_t { kWheels, kVelocity, kPose };
+enum class SimulatedOdometry : std::uint8_t { kWheels, kVelocity, kPose };
 enum class Spread : std::uint8_t { kPath, kArea };
 enum class SensorKind : std::uint8_t { kRangeBearing, kRange, kBearing };
 enum class SceneKind : std::uint8_t { kNone, kRoom, kCorridor };
@@ -43,7 +43,7 @@ struct WorldOptions {
 /// The variances are those of the motion model in the filters: encoder errors per wheel and metre rolled,
 /// slip in the robot frame per metre driven and per radian turned.
 struct WheelOptions {
-  OdometryKind odometry = OdometryKind::kWheels;
+  SimulatedOdometry odometry = SimulatedOdometry::kWheels;
   double rate_hz = 50.0;
   double radius_m = 0.0975;
   double track_m = 0.331;

@@ -111,11 +111,11 @@ void add_odometry_poses(std::vector<Event>& events, const Drive& drive, const Wh
 
 void add_odometry(std::vector<Event>& events, const Drive& drive, const WheelOptions& options) {
   switch (options.odometry) {
-    case OdometryKind::kWheels:
+    case SimulatedOdometry::kWheels:
       return add_wheels(events, drive);
-    case OdometryKind::kVelocity:
+    case SimulatedOdometry::kVelocity:
       return add_velocities(events, drive, geometry(options));
-    case OdometryKind::kPose:
+    case SimulatedOdometry::kPose:
       return add_odometry_poses(events, drive, geometry(options));
   }
 }

@@ -36,7 +36,7 @@ OdometryNoise assumed_noise(const WheelOptions& wheels) {
                       .lateral_var_m2_per_m = wheels.slip_lateral_var_m2_per_m,
                       .turn_var_rad2_per_rad = wheels.slip_turn_var_rad2_per_rad,
                       .turn_var_rad2_per_m = wheels.slip_turn_var_rad2_per_m};
-  if (wheels.odometry == OdometryKind::kWheels) return noise;
+  if (wheels.odometry == SimulatedOdometry::kWheels) return noise;
   noise.wheel_var_m2_per_m = 0.0;
   noise.forward_var_m2_per_m += wheels.var_m2_per_m / 2.0;
   noise.turn_var_rad2_per_m += 2.0 * wheels.var_m2_per_m / (wheels.track_m * wheels.track_m);

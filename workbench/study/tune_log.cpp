@@ -15,12 +15,12 @@ namespace {
 // What an outlier of a run that broke down costs more than one of a run that did not, nats.
 constexpr double kBreakdown = 10.0;
 
-OdometryKind kind_of(const EventContent& content) {
-  if (std::holds_alternative<WheelAngles>(content)) return OdometryKind::kWheelAngles;
-  if (std::holds_alternative<Velocity>(content)) return OdometryKind::kVelocity;
-  if (std::holds_alternative<Steering>(content)) return OdometryKind::kSteering;
-  if (std::holds_alternative<OdometryPose>(content)) return OdometryKind::kOdometryPose;
-  return OdometryKind::kNone;
+OdometryInput kind_of(const EventContent& content) {
+  if (std::holds_alternative<WheelAngles>(content)) return OdometryInput::kWheelAngles;
+  if (std::holds_alternative<Velocity>(content)) return OdometryInput::kVelocity;
+  if (std::holds_alternative<Steering>(content)) return OdometryInput::kSteering;
+  if (std::holds_alternative<OdometryPose>(content)) return OdometryInput::kOdometryPose;
+  return OdometryInput::kNone;
 }
 
 Result<std::vector<Event>> read_events(Source& source) {
@@ -83,7 +83,7 @@ Result<TuneLog> TuneLog::open(const std::string& name, UserSettings user) {
   log.events_ = *std::move(events);
   log.info_ = opened->source->info();
   for (const Event& event : log.events_)
-    if (log.odometry_ == OdometryKind::kNone) log.odometry_ = kind_of(event.content);
+    if (log.odometry_ == OdometryInput::kNone) log.odometry_ = kind_of(event.content);
   log.truth_ = eval::TruthTrack::from_events(log.events_);
   if (auto surveyed = log.survey(); !surveyed) return surveyed.error();
   return log;

@@ -17,7 +17,7 @@ namespace {
 
 struct SheetRequest {
   std::string input;
-  std::string frame;
+  std::string image_file;
   int images = 8;
   int columns = 4;
   std::vector<std::string> settings;
@@ -59,7 +59,7 @@ Result<void> write_sheet(const SheetRequest& request) {
     ++placed;
   };
   if (auto done = for_each_image(request, place); !done) return done;
-  return write_png(request.image, sheet);
+  return write_png(request.image_file, sheet);
 }
 
 int make_sheet(const SheetRequest& request) {
@@ -74,7 +74,7 @@ void add_contact_sheet(CLI::App& app, int& status) {
   auto request = std::make_shared<SheetRequest>();
   auto* command = app.add_subcommand("sheet", "images of a log side by side in one image");
   command->add_option("input", request->input, "a log, or sim:SCENARIO")->required();
-  command->add_option("image", request->image, "PNG file to write")->required();
+  command->add_option("image", request->image_file, "PNG file to write")->required();
   command->add_option("--images", request->images)->check(CLI::Range(1, 1000));
   command->add_option("--columns", request->columns)->check(CLI::Range(1, 1000));
   command->add_option("--set", request->settings, "config key=value")->allow_extra_args(false);

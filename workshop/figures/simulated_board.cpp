@@ -106,9 +106,9 @@ std::vector<BoardCorners> photograph(const Board& board, const CameraOptions& ca
   return views;
 }
 
-std::vector<View> named(const std::vector<BoardCorners>& corners, ImageSize size) {
+std::vector<BoardView> named(const std::vector<BoardCorners>& corners, ImageSize size) {
   constexpr double kSharp_px = 1.5;
-  std::vector<View> views;
+  std::vector<BoardView> views;
   for (const BoardCorners& each : corners)
     views.push_back({.name = "view " + std::to_string(views.size()),
                      .size = size,
