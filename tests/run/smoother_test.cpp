@@ -91,7 +91,7 @@ TEST(Smoother, LeavesOutWhatIsSeenInShortIntervals) {
   const LiveRun live = drive({"smooth.keyframe_distance_m=0.3", "smooth.keyframe_turn_deg=20"});
   const RunGraph graph = graph_of(live.recording, live.config);
   ASSERT_GT(graph.steps.size(), 10U);
-  for (const Interval& interval : graph.graph.intervals) {
+  for (const KeyframeInterval& interval : graph.graph.intervals) {
     const Pose2 moved = motion_of(interval, Calibration::Zero()).increment;
     EXPECT_TRUE(moved.position().norm() >= 0.3 || std::abs(moved.theta_rad) >= to_radians(20.0));
   }

@@ -54,7 +54,7 @@ TEST(CornerFrontEnd, LooksIntoAnImageFromWhereItWasTaken) {
   Robot robot;
   robot.drive(1.0, {taken(0.25, noise_image(1)), taken(0.75, noise_image(2))});
   ASSERT_EQ(robot.steps.size(), 4U);
-  EXPECT_TRUE(robot.steps[1].image && robot.steps[2].image);
+  EXPECT_TRUE(robot.steps[1].frame && robot.steps[2].frame);
   EXPECT_NEAR(robot.steps[1].dead_reckoning.x_m, 0.25, 1e-9);
   EXPECT_NEAR(robot.steps[2].dead_reckoning.x_m, 0.75, 1e-9);
   EXPECT_EQ(robot.pipeline.counts().images, 2);

@@ -70,7 +70,7 @@ struct Started {
 
   /// One image from expectations to what is learnt. Returns what was found and missed, of both kinds.
   std::vector<Observation> see(int step, bool candidates = false) {
-    image = wall.image(step);
+    image = wall.frame(step);
     expectations = points.expect(Wall::pose(step), kS, wall.random, candidates);
     std::vector<Observation> found;
     std::vector<Innovation> innovations;
@@ -136,7 +136,7 @@ TEST(Tracker, NamesEveryNewCornerAnew) {
 TEST(Tracker, ForgetsWhatTheFilterDidNotTakeOrDropped) {
   Wall wall(3);
   Tracker tracker({}, {}, wall.camera, 1);
-  const GreyImage image = wall.image(0);
+  const GreyImage image = wall.frame(0);
   test::KnownPoints points(wall.camera);
   std::vector<Innovation> innovations;
   std::vector<LandmarkId> removed;
@@ -170,7 +170,7 @@ TEST(Tracker, DoesNotReportWhatWasDroppedMeanwhile) {
 TEST(Tracker, MissesWhatIsNoLongerThere) {
   Started s(5);
   Wall other(99);
-  const GreyImage image = other.image(0);
+  const GreyImage image = other.frame(0);
   const auto expectations = s.points.expect(Wall::pose(0), kS, s.wall.random);
   EXPECT_GT(track(s.tracker, image, expectations).missed.size(), expectations.size() * 8 / 10);
 }
@@ -298,7 +298,7 @@ TEST(Tracker, AllocatesNothingOnEitherThread) {
     std::vector<GreyImage> images;
     std::vector<std::vector<Expectation>> expectations;
     for (int step = 0; step < 10; ++step) {
-      images.push_back(s.wall.image(step));
+      images.push_back(s.wall.frame(step));
       expectations.push_back(s.points.expect(Wall::pose(step), kS, s.wall.random));
       for (std::size_t k = 0; k < 4; ++k) expectations.back()[k].candidate = true;
       expectations.back()[0].S *= 100.0;  // searched at corners
