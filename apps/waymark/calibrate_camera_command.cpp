@@ -75,7 +75,7 @@ Error no_board(const CalibrateCameraRequest& request, const InputOptions& option
 }
 
 Result<std::vector<BoardView>> look(const CalibrateCameraRequest& request, const InputOptions& options,
-                               const Board& board) {
+                                    const Board& board) {
   auto finder = calibrate::make_board_finder(board);
   if (!finder) return finder.error();
   auto images = calibrate::open_images(request.inputs, options);

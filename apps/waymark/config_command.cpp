@@ -38,6 +38,13 @@ Result<void> migrate(const std::string& file) {
   return {};
 }
 
+/// What a prefix may be meant for: a section, or a key.
+std::vector<std::string> beginnings_of(const Schema& schema) {
+  std::vector<std::string> beginnings = schema.keys();
+  for (const std::string& key : schema.keys()) beginnings.push_back(key.substr(0, key.find('.')));
+  return beginnings;
+}
+
 Result<void> print(const ConfigRequest& request, Config& config) {
   const Schema schema = describe(config);
   const std::string yaml = schema.to_yaml([&](const std::string& key) {
@@ -45,7 +52,7 @@ Result<void> print(const ConfigRequest& request, Config& config) {
     return request.all || schema.is_shown(key);
   });
   if (yaml.empty()) {
-    const std::string near = nearest_name(request.prefix, schema.keys());
+    const std::string near = nearest_name(request.prefix, beginnings_of(schema));
     return Error{fmt::format("no key begins with {}{}; `waymark config --all` lists all keys", request.prefix,
                              near.empty() ? "" : fmt::format("; did you mean {}?", near))};
   }

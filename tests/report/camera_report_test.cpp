@@ -25,9 +25,9 @@ CameraReport sample_camera() {
                      .toRotationMatrix();
     T.translation() = Eigen::Vector3d(-0.08 + 0.02 * (i - 4), -0.06, 0.4);
     BoardView view{.name = "<photo> " + std::to_string(i),
-              .size = {320, 240},
-              .small = GreyImage(320, 240, 120),
-              .edge_px = 1.5};
+                   .size = {320, 240},
+                   .small = GreyImage(320, 240, 120),
+                   .edge_px = 1.5};
     for (int corner = 0; corner < board.size(); ++corner) {
       const Eigen::Vector2d m = board.corner_m(corner);
       view.corners.push_back({corner, camera.project(T * Eigen::Vector3d(m.x(), m.y(), 0.0))->pixel});

@@ -23,7 +23,8 @@ TEST(Axis, ReadsValuesAndSpansOfWholeNumbers) {
 }
 
 TEST(Axis, UnknownKeyNamesThoseThatAreClose) {
-  EXPECT_EQ(error_of("particles=1"), "--axis: unknown key particles; close keys: fastslam.particles");
+  EXPECT_EQ(error_of("particles=1"),
+            "--axis: unknown key particles; close keys: fastslam.particles, pixel.article");
   EXPECT_THAT(error_of("sensor.range_sigm=1"), HasSubstr("close keys: sensor.range_sigma_m"));
   EXPECT_EQ(error_of("xyzzy=1"), "--axis: unknown key xyzzy; `waymark config --all` lists all keys");
 }

@@ -32,9 +32,7 @@ struct PlaceStudy {
       Eigen::Matrix2d::Zero();  ///< of one observation about that mean: range m, bearing rad
 
   /// In half of the scans or more.
-  [[nodiscard]] bool is_usable() const {
-    return 2 * observations >= scans && observations > 1;
-  }
+  [[nodiscard]] bool is_usable() const { return 2 * observations >= scans && observations > 1; }
 };
 
 /// The end of what can be used on one side: the last place that can, if one beyond it cannot.

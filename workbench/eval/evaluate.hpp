@@ -42,7 +42,7 @@ struct Evaluation {
   std::optional<ProcrustesScore> procrustes;  ///< what another habit of scoring would say
   std::vector<RelativeError> relative;  ///< drift over 1, 5, 10 and 20 m, where the truth is long enough
 
-  std::optional<StartAlignment> anchor;     ///< T_truth_estimate at the start
+  std::optional<StartAlignment> anchor;  ///< T_truth_estimate at the start
   std::optional<PathFit> fit;       ///< T_truth_estimate by least squares, with the scale as a diagnostic
   std::vector<ErrorSample> series;  ///< anchored errors over time
   std::vector<std::string> notes;   ///< what a reader of the figures must know

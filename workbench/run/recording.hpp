@@ -44,7 +44,7 @@ struct Recording {
   std::vector<TimedCost> steps;
   std::vector<Motion> motions;  ///< to each point of the trajectory; kept where smooth.run is set,
   std::vector<ObservationRecord> observations;  ///< as are these
-  std::vector<FunctionBlocks::Row> blocks;  ///< of the filter, and of what looks into images for it
+  std::vector<FunctionBlocks::Row> blocks;      ///< of the filter, and of what looks into images for it
   ImageStrip image_strip;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
   PipelineCounts counts;

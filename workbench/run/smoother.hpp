@@ -27,7 +27,7 @@ struct Smoothed {
   int iterations = 0;
   bool converged = false;
   std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
-  std::size_t observations = 0;        ///< of landmarks of the map
+  std::size_t observations = 0;    ///< of landmarks of the map
   std::vector<SmoothedObservation> remainders;  ///< of these; empty where there were too many for covariances
   std::vector<IntervalRemainder> interval_remainders;  ///< of the odometry between these poses; likewise
   Duration cpu{0};

@@ -49,6 +49,7 @@ struct Flaws {
                                                    RandomStream& random);
 
 /// Views of these corners, called "view 0" and so on.
-[[nodiscard]] std::vector<BoardView> named(const std::vector<BoardCorners>& corners, ImageSize size = {640, 480});
+[[nodiscard]] std::vector<BoardView> named(const std::vector<BoardCorners>& corners,
+                                           ImageSize size = {640, 480});
 
 }  // namespace waymark::calibrate::simulated
