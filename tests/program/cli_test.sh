@@ -343,7 +343,7 @@ kill -KILL $pid
 wait $pid 2>/dev/null
 done_before=$(($(wc -l <killed/journal.csv) - 2))
 does "${long[@]}" -o killed
-grep -q "of 40 runs are there already" out.txt || fail "sweep did not go on: $(cat out.txt)"
+grep -q "of 40 runs were already done" out.txt || fail "sweep did not go on: $(cat out.txt)"
 [ "$done_before" -lt 40 ] || fail 'the sweep was over before it was killed'
 [ "$(wc -l <killed/sweep.csv)" -eq 41 ] || fail 'a sweep that went on lacks runs'
 [ "$(sort killed/journal.csv | uniq -d | wc -l)" -eq 0 ] || fail 'a sweep that went on made runs twice'
