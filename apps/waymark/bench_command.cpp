@@ -80,13 +80,15 @@ Result<void> bench(const BenchRequest& request) {
 }  // namespace
 
 void add_bench(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("bench", "Time the filters on this machine");
+  auto* command = app.add_subcommand(
+      "bench", "Measure the computing time of filters and camera front end on this machine");
   auto request = std::make_shared<BenchRequest>();
   std::vector<std::string> names;
   for (const Suite& suite : kSuites) names.emplace_back(suite.name);
-  command->add_option("suite", request->suites, "which part; without it everything")
+  command->add_option("suite", request->suites, "what to measure; default everything")
       ->check(CLI::IsMember(names));
-  command->add_flag("--quick", request->quick, "a rough answer in seconds: smaller maps, fewer rounds");
+  command->add_flag("--quick", request->quick,
+                    "smaller maps and fewer repetitions: a rough result within seconds");
   add_verbosity(*command, request->verbosity);
   command->footer(
       "Example:\n  waymark bench\n  waymark bench --quick\n  waymark bench ekf --json > bench.json");

@@ -39,8 +39,8 @@ std::string name_of(GridSize grid) { return fmt::format("{}x{}", grid.columns, g
 
 Error no_chessboard() {
   return {
-      "calibrate camera: no chessboard was found, so say what board it is: --corners COLUMNSxROWS (the inner "
-      "corners, where four squares meet; for example 9x6), or --board charuco"};
+      "calibrate camera: no chessboard was found; give its number of inner corners (where four squares meet) "
+      "by --corners COLUMNSxROWS, for example 9x6, or use --board charuco"};
 }
 
 /// The board that was asked for, or the chessboard that the images show.
@@ -52,7 +52,8 @@ Result<Board> settle_board(const CalibrateCameraRequest& request, const InputOpt
   const auto corners = guess(request, options);
   if (!corners) return no_chessboard();
   if (request.verbosity.talks())
-    fmt::print("board: the images show {} inner corners; --corners says otherwise\n", name_of(*corners));
+    fmt::print("board: the images show {} inner corners; if that is wrong, give --corners\n",
+               name_of(*corners));
   board->corners = *corners;
   return board;
 }
@@ -69,9 +70,9 @@ Error no_board(const CalibrateCameraRequest& request, const InputOptions& option
   if (request.board.corners.empty()) return no_chessboard();
   const auto corners = guess(request, options);
   if (corners && *corners != board.corners)
-    return {
-        fmt::format("{}; they seem to show {}: --corners {}", message, name_of(*corners), name_of(*corners))};
-  return {message + "; --corners counts where four squares meet, not the squares"};
+    return {fmt::format("{}; they seem to show {}: try --corners {}", message, name_of(*corners),
+                        name_of(*corners))};
+  return {message + "; --corners is the number of points where four squares meet, not of squares"};
 }
 
 Result<std::vector<BoardView>> look(const CalibrateCameraRequest& request, const InputOptions& options,
@@ -81,7 +82,7 @@ Result<std::vector<BoardView>> look(const CalibrateCameraRequest& request, const
   auto images = calibrate::open_images(request.inputs, options);
   if (!images) return images.error();
   catch_interrupts();
-  ProgressBar bar("looking for the board", request.verbosity);
+  ProgressBar bar("finding the board", request.verbosity);
   return calibrate::collect_views(**images, board, **finder, [&bar](double part) {
     bar.show(part);
     return !interrupted();
@@ -99,7 +100,7 @@ void print_dropped(const CameraCalibration& result) {
       fmt::print("  dropped {}: {}\n", view.name, view.why);
   }
   if (alike + without_board > 0)
-    fmt::print("  dropped {} frames like others and {} without the board\n", alike, without_board);
+    fmt::print("  dropped {} frames similar to others and {} without the board\n", alike, without_board);
 }
 
 void print_text(const CameraCalibration& result, const std::string& output) {
@@ -149,28 +150,32 @@ Result<void> calibrate_camera(const CalibrateCameraRequest& request) {
 void add_board(CLI::App& command, calibrate::BoardRequest& board) {
   command.add_option("--board", board.kind, "chessboard (default) or charuco")->type_name("KIND");
   command
-      .add_option("--corners", board.corners,
-                  "inner corners of a chessboard, where four squares meet; without it the images tell")
+      .add_option(
+          "--corners", board.corners,
+          "number of inner corners of a chessboard, where four squares meet; default: found from the images")
       ->type_name("9x6");
-  command.add_option("--squares", board.squares, "squares of a ChArUco board")->type_name("5x7");
+  command.add_option("--squares", board.squares, "number of squares of a ChArUco board")->type_name("5x7");
   command
       .add_option("--square_m", board.square_m,
-                  "side of a square; the camera does not depend on it, the distances on the page do")
+                  "side of a square, m; needed for the distances on the page, not for the calibration")
       ->type_name("M");
-  command.add_option("--marker_m", board.marker_m, "side of a marker of a ChArUco board")->type_name("M");
-  command.add_option("--dictionary", board.dictionary, "markers of a ChArUco board, for example 5x5_50")
+  command.add_option("--marker_m", board.marker_m, "side of a marker of a ChArUco board, m")->type_name("M");
+  command
+      .add_option("--dictionary", board.dictionary,
+                  "marker dictionary of a ChArUco board, for example 5x5_50")
       ->type_name("NAME");
 }
 
 }  // namespace
 
 void add_calibrate_camera(CLI::App& calibrate, Work& work) {
-  auto* command = calibrate.add_subcommand(
-      "camera", "Focal length, principal point and distortion of a camera, from images of a board");
+  auto* command = calibrate.add_subcommand("camera",
+                                           "Calibrate a camera (focal length, principal point, distortion) "
+                                           "from images of a chessboard or ChArUco board");
   auto request = std::make_shared<CalibrateCameraRequest>();
   command
       ->add_option("input", request->inputs,
-                   "images, folders or patterns of them; or one video, ROS bag or log with images")
+                   "images, folders or file patterns; or one video, ROS bag or log with images")
       ->required();
   command
       ->add_option("-o,--output", request->output,

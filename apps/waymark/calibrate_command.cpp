@@ -4,7 +4,7 @@ namespace waymark::app {
 
 void add_calibrate(CLI::App& app, Work& work) {
   auto* calibrate =
-      app.add_subcommand("calibrate", "Find out what a robot and its sensors are like, from recordings");
+      app.add_subcommand("calibrate", "Calibrate cameras, odometry and landmark sensors from recordings");
   calibrate->require_subcommand(1);
   calibrate->footer(
       "Examples:\n"

@@ -56,8 +56,10 @@ void add(CLI::App& calibrate, Work& work, const char* name, const char* help, co
       ->required();
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-calibration)")
       ->type_name("OUT");
-  command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");
-  command->add_option("--to", request->span.to_s, "end this many seconds into the log")->type_name("S");
+  command->add_option("--from", request->span.from_s, "seconds from the start of the log at which to begin")
+      ->type_name("S");
+  command->add_option("--to", request->span.to_s, "seconds from the start of the log at which to end")
+      ->type_name("S");
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
   command->footer(footer);
@@ -70,26 +72,25 @@ void add(CLI::App& calibrate, Work& work, const char* name, const char* help, co
 
 void add_calibrate_odometry(CLI::App& calibrate, Work& work) {
   add(calibrate, work, "odometry",
-      "Wheel radii and track, or scales and bias of another odometry, from any log with landmarks",
+      "Calibrate odometry (wheel radii and track, or scales and bias) from any log with landmarks",
       "Examples:\n"
       "  waymark calibrate odometry LOG -o out && waymark run LOG --config out/calibration.yaml\n"
       "  waymark calibrate odometry LOG --set motion.turn_scale_sigma=0.05\n\n"
-      "Writes calibration.yaml (for --config), calibration.json and report.html. What was believed before is "
-      "in "
-      "the keys smooth.*_sigma*.",
+      "Writes calibration.yaml (for --config), calibration.json and report.html.\n"
+      "The priors are the keys motion.*_sigma* and smooth.*_sigma*.",
       calibrate::Subject::kOdometry);
 }
 
 void add_calibrate_mount(CLI::App& calibrate, Work& work) {
   add(calibrate, work, "mount",
-      "Where the landmark sensor or camera sits on the robot, with the odometry, from any log with landmarks",
+      "Calibrate the position of landmark sensor or camera on the robot, and the odometry, from any log with "
+      "landmarks",
       "Examples:\n"
       "  waymark calibrate mount LOG -o out && waymark run LOG --config out/calibration.yaml\n"
       "  waymark calibrate mount BAG --set markers.dictionary=4x4_50 --set markers.size_m=0.085\n\n"
-      "The robot must turn both ways: where the sensor sits shows in turns alone. Writes calibration.yaml "
-      "(for "
-      "--config), calibration.json and report.html. What was believed before is in smooth.mount_sigma_m, "
-      "smooth.mount_yaw_sigma_deg and the keys of the odometry.",
+      "The robot must turn both left and right: the position of the sensor is observable in turns only.\n"
+      "Writes calibration.yaml (for --config), calibration.json and report.html.\n"
+      "The priors are smooth.mount_sigma_m, smooth.mount_yaw_sigma_deg and the keys of the odometry.",
       calibrate::Subject::kMount);
 }
 

@@ -20,7 +20,7 @@ struct CalibrateSensorRequest {
 
 /// Of a robot that moves among landmarks.
 Result<calibrate::MovingStudy> from_log(const CalibrateSensorRequest& request) {
-  ProgressBar bar("run after run", request.verbosity);
+  ProgressBar bar("calibrating", request.verbosity);
   return calibrate::study_moving(request.input, request.flags.settings(), [&bar](double fraction) {
     bar.show(fraction);
     return !interrupted();
@@ -52,8 +52,8 @@ Result<void> deliver(const Result<Findings>& findings, const CalibrateSensorRequ
 Result<void> calibrate_sensor(const CalibrateSensorRequest& request) {
   if (request.input.empty() == request.places.empty())
     return Error{
-        "calibrate sensor: give a log of a robot that moves, or --places FILE with recordings at known "
-        "places"};
+        "calibrate sensor: give a log of a moving robot, or --places FILE with recordings of landmarks at "
+        "known places"};
   if (auto made = ensure_output_folder(request.output); !made) return made;
   catch_interrupts();
   return request.places.empty() ? deliver(from_log(request), request)
@@ -63,16 +63,16 @@ Result<void> calibrate_sensor(const CalibrateSensorRequest& request) {
 }  // namespace
 
 void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
-  auto* command = calibrate.add_subcommand(
-      "sensor",
-      "How a landmark sensor or camera errs: on a robot that moves, or before landmarks at known places");
+  auto* command = calibrate.add_subcommand("sensor",
+                                           "Estimate noise, bias and delay of a landmark sensor or camera, "
+                                           "from a moving robot or landmarks at known places");
   const auto request = std::make_shared<CalibrateSensorRequest>();
   command->add_option("input", request->input,
                       "a log folder, a ROS bag, a published data set, or sim:SCENARIO");
   command
-      ->add_option(
-          "--places", request->places,
-          "instead of a log: a table log,range_m,bearing_deg of recordings of a landmark at known places")
+      ->add_option("--places", request->places,
+                   "instead of a log: table log,range_m,bearing_deg of recordings, each of a landmark at a "
+                   "known place")
       ->type_name("FILE.csv");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-calibration)")
       ->type_name("OUT");
@@ -83,10 +83,9 @@ void add_calibrate_sensor(CLI::App& calibrate, Work& work) {
       "  waymark calibrate odometry LOG -o odometry\n"
       "  waymark calibrate sensor LOG --config odometry/calibration.yaml -o sensor     # noise and delay\n"
       "  waymark run LOG --config odometry/calibration.yaml --config sensor/calibration.yaml\n"
-      "  waymark calibrate sensor --places places.csv -o out     # biases, noise, limits of range and "
-      "view\n\n"
-      "Calibrate odometry and mount first: what is wrong with them would count as noise. Writes "
-      "calibration.yaml (for --config), calibration.json and report.html.");
+      "  waymark calibrate sensor --places places.csv -o out     # biases, noise, range and view limits\n\n"
+      "Calibrate odometry and mount first: their errors would count as sensor noise.\n"
+      "Writes calibration.yaml (for --config), calibration.json and report.html.");
   command->callback([&work, request] { work = [request] { return calibrate_sensor(*request); }; });
 }
 

@@ -137,9 +137,10 @@ std::vector<std::string> find_oddities(const CheckRequest& request, const LogInf
     if (name != "ground truth" && name != "observations" && to_seconds(stream.longest_gap) > 1.0)
       oddities.push_back(fmt::format("{}: longest gap {:.2f} s", name, to_seconds(stream.longest_gap)));
   if (contents.unidentified > 0)
-    oddities.push_back(fmt::format("{} observations without identity", contents.unidentified));
+    oddities.push_back(fmt::format("{} observations of unknown identity", contents.unidentified));
   if (contents.blank_images > 0)
-    oddities.push_back(fmt::format("{} images show nothing: all of it is alike", contents.blank_images));
+    oddities.push_back(
+        fmt::format("{} images show nothing: all pixels are nearly equal", contents.blank_images));
   std::ranges::move(survey_oddities(request, log, contents), std::back_inserter(oddities));
   return oddities;
 }
@@ -150,18 +151,17 @@ std::string advice(const CheckRequest& request, const Config& config, const LogI
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
   if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
     return log.topics.empty()
-               ? "nothing can be run: there is no odometry (wheels.csv, velocity.csv, steering.csv or "
-                 "odometry.csv)"
-               : "nothing can be run: there is no odometry (a topic of type nav_msgs/Odometry, "
+               ? "nothing can be run: there is no odometry (expected wheels.csv, velocity.csv, steering.csv "
+                 "or odometry.csv)"
+               : "nothing can be run: there is no odometry (expected a topic of type nav_msgs/Odometry, "
                  "sensor_msgs/JointState, geometry_msgs/TwistStamped, Twist or PoseStamped)";
   if (!has("observations") && !has("images") && !has("marker corners"))
-    return "only dead reckoning: there are no observations";
+    return "only dead reckoning can be run: there are no observations";
   if (log.only_pixels && !config.camera_known)
     return log.topics.empty()
-               ? "nothing can be run: camera.yaml is missing, so nobody knows what the camera is like"
-               : "nothing can be run: nobody knows what the camera is like; `waymark calibrate camera "
-                 "PHOTOS -o camera` makes a file that says it, for --set "
-                 "input.camera_file=camera/camera.yaml";
+               ? "nothing can be run: the camera is not calibrated: camera.yaml is missing"
+               : "nothing can be run: the camera is not calibrated; `waymark calibrate camera PHOTOS -o "
+                 "camera` writes a calibration, for --set input.camera_file=camera/camera.yaml";
   std::string command = "waymark run " + request.input + " -o out";
   if (log.only_pixels) command += " --observe pixel";
   if (has("marker corners")) command += " --set markers.size_m=SIDE";
@@ -245,8 +245,8 @@ Result<void> check_log(const CheckRequest& request) {
 }  // namespace
 
 void add_check(CLI::App& app, Work& work) {
-  auto* command =
-      app.add_subcommand("check", "What is in this log, what is missing or odd, and what to run on it");
+  auto* command = app.add_subcommand(
+      "check", "List what a log contains, what is missing or odd in it, and the command to run on it");
   auto request = std::make_shared<CheckRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")

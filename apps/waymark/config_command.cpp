@@ -53,7 +53,7 @@ Result<void> print(const ConfigRequest& request, Config& config) {
   });
   if (yaml.empty()) {
     const std::string near = nearest_name(request.prefix, beginnings_of(schema));
-    return Error{fmt::format("no key begins with {}{}; `waymark config --all` lists all keys", request.prefix,
+    return Error{fmt::format("no key starts with {}{}; `waymark config --all` lists all keys", request.prefix,
                              near.empty() ? "" : fmt::format("; did you mean {}?", near))};
   }
   fmt::print("{}", yaml);
@@ -74,19 +74,22 @@ Result<void> config(const ConfigRequest& request) {
 }  // namespace
 
 void add_config(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("config", "Print config keys with comments; validate or migrate a file");
+  auto* command = app.add_subcommand(
+      "config",
+      "Print config keys with descriptions; validate a config file, or migrate one of an earlier version");
   auto request = std::make_shared<ConfigRequest>();
-  command->add_option("prefix", request->prefix, "a part: all keys that begin so, as sensor or camera.mount")
+  command
+      ->add_option("prefix", request->prefix,
+                   "print only keys that start with this, for example sensor or camera.mount")
       ->type_name("PREFIX");
-  command->add_flag("--all", request->all, "all keys, those that are seldom set too");
+  command->add_flag("--all", request->all, "print all keys, including those that are seldom set");
   auto* validate =
-      command->add_option("--validate", request->validate, "check this file and say what is wrong with it")
+      command->add_option("--validate", request->validate, "check this file and report its first error")
           ->type_name("FILE");
   command
-      ->add_option(
-          "--migrate", request->migrate,
-          "rewrite this file of an earlier version: keys that are gone become comments, renamed ones "
-          "get their new names")
+      ->add_option("--migrate", request->migrate,
+                   "rewrite this file of an earlier version: renamed keys get their new names, removed keys "
+                   "become comments")
       ->type_name("FILE")
       ->excludes(validate);
   request->flags.add_to(*command);

@@ -56,8 +56,8 @@ Result<void> demo(const DemoRequest& request) {
 }  // namespace
 
 void add_demo(CLI::App& app, Work& work) {
-  auto* command =
-      app.add_subcommand("demo", "Simulate a drive, run both filters, write a report; needs no data");
+  auto* command = app.add_subcommand(
+      "demo", "Simulate a drive, run both filters on it and write a report; needs no data");
   auto request = std::make_shared<DemoRequest>();
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-demo)")
       ->type_name("OUT");

@@ -96,12 +96,12 @@ Result<void> evaluate(const EvalRequest& request) {
   if (!reference) return reference.error();
   if (reference->track.empty() && reference->landmarks.empty())
     return Error{request.truth +
-                 ": holds no ground truth: expected truth.csv or landmarks.csv, or a TUM trajectory"};
+                 ": no ground truth found: expected truth.csv or landmarks.csv, or a TUM trajectory"};
   const auto evaluation = eval::evaluate(estimate->trajectory, estimate->map, reference->track,
                                          reference->landmarks, {}, reference->options);
   if (evaluation.pairs == 0 && !reference->track.empty())
     return Error{fmt::format(
-        "{}: no stamp in common with {}: the estimate covers {} to {} s, the truth {} to {} s",
+        "{}: does not overlap in time with {}: the estimate covers {} to {} s, the ground truth {} to {} s",
         request.result, request.truth, to_string(estimate->trajectory.front().stamp),
         to_string(estimate->trajectory.back().stamp), to_string(reference->track.samples().front().stamp),
         to_string(reference->track.samples().back().stamp))};
@@ -112,11 +112,12 @@ Result<void> evaluate(const EvalRequest& request) {
 }  // namespace
 
 void add_eval(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("eval", "Errors of a result against ground truth, aligned and not");
+  auto* command = app.add_subcommand(
+      "eval", "Compute the errors of a result against ground truth, with and without alignment");
   auto request = std::make_shared<EvalRequest>();
-  command->add_option("result", request->result, "a folder that `waymark run` wrote, or a TUM trajectory")
+  command->add_option("result", request->result, "folder that `waymark run` wrote, or a TUM trajectory")
       ->required();
-  command->add_option("--truth", request->truth, "a log with ground truth, or a TUM trajectory")
+  command->add_option("--truth", request->truth, "log with ground truth, or a TUM trajectory")
       ->required()
       ->type_name("LOG_OR_FILE");
   request->flags.add_to(*command);

@@ -17,11 +17,11 @@ std::string remembered_command_line;
 
 constexpr const char* kFooter =
     "Example, no data needed:\n"
-    "  waymark demo                                   simulate, run both filters, write a report\n"
+    "  waymark demo                                   simulate a drive, run both filters, write a report\n"
     "Example, a recording:\n"
-    "  waymark check LOG                              what is in it, and what to run on it\n"
+    "  waymark check LOG                              list its contents and the command to run on it\n"
     "  waymark run LOG -o out && xdg-open out/report.html\n\n"
-    "Exit status: 0 done, 1 failed while running, 2 wrong usage or bad input.";
+    "Exit status: 0 success, 1 failure while running, 2 wrong usage or bad input.";
 
 int report(const Error& error) {
   print_error("waymark: " + error.message + "\n");
@@ -32,24 +32,28 @@ int report(const Error& error) {
 Result<void> choose_instruction_set() {
   const char* name = std::getenv("WAYMARK_INSTRUCTION_SET");
   if (name == nullptr || kernels::use_instruction_set(name)) return {};
-  return Error{
-      fmt::format("WAYMARK_INSTRUCTION_SET: '{}' is not known or not what this processor has, which is {}",
-                  name, fmt::join(kernels::instruction_sets(), ", "))};
+  return Error{fmt::format(
+      "WAYMARK_INSTRUCTION_SET: '{}' is unknown or not supported by this processor, which supports {}", name,
+      fmt::join(kernels::instruction_sets(), ", "))};
 }
 
 }  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
   command
-      .add_option("--config", files,
-                  "YAML file with config keys (see `waymark config`); of several, the later rank above")
+      .add_option(
+          "--config", files,
+          "YAML file with config keys (see `waymark config`); may be given several times, later files win")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--set", assignments, "one config key, for example --set sensor.range_sigma_m=0.1")
+  command
+      .add_option("--set", assignments,
+                  "value of one config key, for example --set sensor.range_sigma_m=0.1; wins over files")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_option("--seed", seed, "seed of all random numbers (config key seed)")->type_name("N");
-  command.add_option("--threads", threads, "threads; the result does not depend on it (config key threads)")
+  command
+      .add_option("--threads", threads, "number of threads; does not change the result (config key threads)")
       ->type_name("N");
 }
 
@@ -63,9 +67,9 @@ UserSettings SettingsFlags::settings() const {
 }
 
 void add_verbosity(CLI::App& command, Verbosity& verbosity) {
-  command.add_flag("--quiet", verbosity.quiet, "print nothing but errors");
+  command.add_flag("--quiet", verbosity.quiet, "print errors only");
   command.add_flag("--json", verbosity.json,
-                   "print the result as JSON on standard output and nothing else there");
+                   "print the result as JSON, and nothing else, on standard output");
 }
 
 void remember_command_line(int argc, char** argv) {
@@ -126,7 +130,7 @@ int main(int argc, char** argv) {
   try {
     return waymark::app::run_and_report(argc, argv);
   } catch (const std::exception&) {  // no memory for the words, even
-    waymark::app::print_error("waymark: the memory does not suffice\n");
+    waymark::app::print_error("waymark: out of memory\n");
     return 1;
   }
 }

@@ -80,7 +80,7 @@ Result<void> fix(const MapRequest& request) {
 CLI::App* add(CLI::App& map, Work& work, const char* name, const char* help, const char* example,
               Result<void> (*act)(const MapRequest&), const std::shared_ptr<MapRequest>& request) {
   auto* command = map.add_subcommand(name, help);
-  command->add_option("map", request->input, "a saved map: .waymark, .json or .csv")
+  command->add_option("map", request->input, "saved map: .waymark, .json or .csv")
       ->required()
       ->type_name("FILE");
   command->footer(std::string("Example:\n  ") + example);
@@ -89,7 +89,7 @@ CLI::App* add(CLI::App& map, Work& work, const char* name, const char* help, con
 }
 
 void add_output(CLI::App& command, MapRequest& request) {
-  command.add_option("-o,--output", request.output, "the map to write: .waymark, .json or .csv")
+  command.add_option("-o,--output", request.output, "map file to write: .waymark, .json or .csv")
       ->required()
       ->type_name("OUT");
 }
@@ -97,25 +97,28 @@ void add_output(CLI::App& command, MapRequest& request) {
 }  // namespace
 
 void add_map(CLI::App& app, Work& work) {
-  auto* map = app.add_subcommand("map", "Show, convert, merge or fix saved maps");
+  auto* map = app.add_subcommand("map", "Show, convert, merge or correct saved maps");
   map->require_subcommand(1);
   map->footer(
       "Examples:\n  waymark map show out/map.waymark\n"
       "  waymark map merge monday/map.waymark tuesday/map.waymark -o both.waymark");
   const auto request = std::make_shared<MapRequest>();
-  add(*map, work, "show", "What is in a map", "waymark map show out/map.waymark", show, request);
-  auto* to = add(*map, work, "convert", "Write a map in another form; .csv has no correlations",
+  add(*map, work, "show", "Print robot pose, landmarks and standard deviations of a map",
+      "waymark map show out/map.waymark", show, request);
+  auto* to = add(*map, work, "convert", "Convert a map to another format; .csv keeps no correlations",
                  "waymark map convert out/map.waymark -o map.json", convert, request);
   add_output(*to, *request);
-  auto* both = add(*map, work, "merge", "Join two independent maps by the identities that they share",
-                   "waymark map merge a.waymark b.waymark -o both.waymark", merge, request);
-  both->add_option("other", request->other, "the map to join to it, in any frame")
-      ->required()
-      ->type_name("FILE");
+  auto* both =
+      add(*map, work, "merge", "Merge two independent maps by the landmark identities that they share",
+          "waymark map merge a.waymark b.waymark -o both.waymark", merge, request);
+  both->add_option("other", request->other, "second map, in any frame")->required()->type_name("FILE");
   add_output(*both, *request);
-  auto* fixed = add(*map, work, "fix", "Put a map into the frame of surveyed landmarks, which correct it",
-                    "waymark map fix out/map.waymark --survey survey.csv -o fixed.waymark", fix, request);
-  fixed->add_option("--survey", request->other, "table id,x_m,y_m,sxx,sxy,syy of two landmarks or more")
+  auto* fixed =
+      add(*map, work, "fix", "Transform a map into the frame of surveyed landmarks and correct it by them",
+          "waymark map fix out/map.waymark --survey survey.csv -o fixed.waymark", fix, request);
+  fixed
+      ->add_option("--survey", request->other,
+                   "table id,x_m,y_m,sxx,sxy,syy of at least two surveyed landmarks")
       ->required()
       ->type_name("CSV");
   add_output(*fixed, *request);

@@ -110,7 +110,7 @@ void Ranks::work(const study::SweepPlan& plan) {
 Result<std::unique_ptr<Ranks>> Ranks::join() {
   if (started_by_mpirun())
     return Error{
-        "this program was built without MPI and cannot be started by mpirun: install libopenmpi-dev and "
+        "this program was built without MPI and cannot be started by mpirun; install libopenmpi-dev and "
         "build again"};
   return std::unique_ptr<Ranks>(new Ranks);
 }

@@ -68,7 +68,7 @@ Result<void> run(const RunRequest& request) {
 }  // namespace
 
 void add_run(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("run", "Run a filter over a log: path, map, errors and a report");
+  auto* command = app.add_subcommand("run", "Run a filter over a log; writes path, map, errors and a report");
   auto request = std::make_shared<RunRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
@@ -78,23 +78,26 @@ void add_run(CLI::App& app, Work& work) {
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
   command
       ->add_option("--observe", request->observe,
-                   "part of the observations to use: range-bearing, range, bearing, pixel (corners in "
-                   "images) or markers (in images, too); default what the log offers")
+                   "observations to use: range-bearing, range, bearing, pixel (corners in images) or markers "
+                   "(ArUco or AprilTag markers in images); default: chosen by the log")
       ->type_name("KIND");
   command
       ->add_option("--associate", request->associate,
-                   "known: by identity; without one nearest or jcbb (ekf) or ml (fastslam); default what the "
-                   "log allows")
+                   "data association: known (by identity); for unknown identities nearest or jcbb (ekf), or "
+                   "ml (fastslam); default: chosen by the log")
       ->type_name("HOW");
-  command->add_option("--map", request->map, "go on from a saved map (map.waymark), at the pose in it")
+  command->add_option("--map", request->map, "continue from a saved map (map.waymark), starting at its pose")
       ->type_name("FILE");
-  command->add_flag("--localize", request->localize,
-                    "hold the map of --map as it is and find the pose alone, from anywhere in it");
+  command->add_flag(
+      "--localize", request->localize,
+      "keep the map of --map unchanged and estimate only the pose; the robot may start anywhere in it");
   command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
   command->add_flag("--smooth", request->smooth,
-                    "also estimate path, map and calibration from the whole log when it has ended");
-  command->add_option("--from", request->span.from_s, "start this many seconds into the log")->type_name("S");
-  command->add_option("--to", request->span.to_s, "end this many seconds into the log")->type_name("S");
+                    "after the log has ended, also estimate path, map and calibration from all of it");
+  command->add_option("--from", request->span.from_s, "seconds from the start of the log at which to begin")
+      ->type_name("S");
+  command->add_option("--to", request->span.to_s, "seconds from the start of the log at which to end")
+      ->type_name("S");
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
   command->footer(
@@ -106,9 +109,9 @@ void add_run(CLI::App& app, Work& work) {
       "  waymark run MRCLAM_Dataset6 --set input.robot=3 -o out\n"
       "  waymark run LOG --from 600 --map out/map.waymark -o out2\n"
       "  waymark run LOG2 --map out/map.waymark --localize -o out3\n\n"
-      "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and "
-      "report.html; with --smooth trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml, too; "
-      "that also with --set ekf.calibrate_odometry=true.");
+      "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json\n"
+      "and report.html. With --smooth also trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml.\n"
+      "calibration.yaml is also written with --set ekf.calibrate_odometry=true.");
   command->callback([&work, request] { work = [request] { return run(*request); }; });
 }
 

@@ -38,14 +38,21 @@ Result<void> simulate(const SimRequest& request) {
 }  // namespace
 
 void add_sim(CLI::App& app, Work& work) {
-  auto* command = app.add_subcommand("sim", "Write a simulated log folder with ground truth");
+  auto* command =
+      app.add_subcommand("sim", "Simulate a drive and write it as a log folder with ground truth");
   auto request = std::make_shared<SimRequest>();
-  command->add_option("scenario", request->scenario, "one of " + scenario_list())->required();
-  command->add_option("-o,--output", request->output, "log folder to write")->required()->type_name("LOG");
+  command
+      ->add_option("scenario", request->scenario,
+                   "scenario or FILE.yaml with keys sim.*; scenarios: " + scenario_list())
+      ->required();
+  command->add_option("-o,--output", request->output, "log folder to write, with ground truth")
+      ->required()
+      ->type_name("LOG");
   request->flags.add_to(*command);
-  command->add_flag("--quiet", request->verbosity.quiet, "print nothing but errors");
+  command->add_flag("--quiet", request->verbosity.quiet, "print errors only");
   command->footer(
-      "Example:\n  waymark sim study -o study-log --seed 7\n"
+      "Examples:\n"
+      "  waymark sim study -o study-log --seed 7\n"
       "  waymark sim room -o room-log --set sim.laps=2 --set sim.walkers=3\n"
       "  waymark sim square -o log --set sim.landmarks=40 --set sim.field_of_view_deg=180");
   command->callback([&work, request] { work = [request] { return simulate(*request); }; });

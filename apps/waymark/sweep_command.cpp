@@ -105,7 +105,7 @@ void print(const SweepRequest& request, const study::Sweep& sweep, const study::
 Result<void> judge(const study::Sweep& sweep, const std::string& folder) {
   if (sweep.error()) return *sweep.error();
   if (sweep.done() < sweep.total())
-    return Error{fmt::format("stopped after {} of {} runs; the same command with -o {} goes on from here",
+    return Error{fmt::format("stopped after {} of {} runs; the same command with -o {} continues",
                              sweep.done(), sweep.total(), folder),
                  Error::Kind::kFailed};
   const auto rows = sweep.rows();
@@ -115,7 +115,7 @@ Result<void> judge(const study::Sweep& sweep, const std::string& folder) {
   const bool all_refused = std::ranges::all_of(rows, [&failed](const study::SweepRow& row) {
     return failed(row) && row.error_kind == Error::Kind::kBadInput;
   });
-  return Error{fmt::format("{} of {} runs could not be made, the first because: {}", count, rows.size(),
+  return Error{fmt::format("{} of {} runs failed, the first because: {}", count, rows.size(),
                            std::ranges::find_if(rows, failed)->error),
                all_refused ? Error::Kind::kBadInput : Error::Kind::kFailed};
 }
@@ -128,7 +128,7 @@ Result<void> sweep_first(const SweepRequest& request, const study::SweepPlan& pl
   auto sweep = study::Sweep::open(plan, request.output);
   if (!sweep) return sweep.error();
   if (request.verbosity.talks() && (*sweep)->resumed() > 0)
-    fmt::print("{} of {} runs are there already\n", (*sweep)->resumed(), (*sweep)->total());
+    fmt::print("{} of {} runs were already done\n", (*sweep)->resumed(), (*sweep)->total());
   make_runs(**sweep, ranks, *threads, request.verbosity);
   const auto summary = study::summarise(plan, (*sweep)->rows());
   if (auto written = write(**sweep, summary, request.output); !written) return written;
@@ -149,17 +149,19 @@ Result<void> sweep(const SweepRequest& request) {
 }  // namespace
 
 void add_sweep(CLI::App& app, Work& work) {
-  auto* command =
-      app.add_subcommand("sweep", "Many runs over seeds, particles, any setting; a table and a page");
+  auto* command = app.add_subcommand(
+      "sweep",
+      "Run every combination of some settings (seeds, particles, any key) and write a table and a page");
   auto request = std::make_shared<SweepRequest>();
-  command->add_option("input", request->input,
-                      "a log, sim:SCENARIO, or study: the default study (also without an input)");
-  command->add_option("--axis", request->axes, "a config key and its values; every combination is run")
+  command->add_option("input", request->input, "log, sim:SCENARIO, or study (default): the built-in study");
+  command
+      ->add_option("--axis", request->axes,
+                   "config key and its values; every combination is run; may be given several times")
       ->type_name("KEY=V,V,..|A..B")
       ->allow_extra_args(false);
   command
       ->add_option("-o,--output", request->output,
-                   "folder for the results (default waymark-sweep); what is there is continued")
+                   "folder for the results (default waymark-sweep); an interrupted sweep in it is continued")
       ->type_name("OUT");
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
@@ -170,9 +172,8 @@ void add_sweep(CLI::App& app, Work& work) {
       "filter=fastslam -o out\n"
       "  waymark sweep MRCLAM_Dataset6 --axis input.robot=1..4 --axis filter=ekf,fastslam -o out\n"
       "  mpirun -n 8 waymark sweep study --axis seed=1..100 -o out\n\n"
-      "Writes sweep.csv (a row per run), sweep.html and journal.csv, from which a sweep that was ended goes "
-      "on.\n"
-      "--threads is the number of runs beside each other (default: all cores).");
+      "Writes sweep.csv (a row per run), sweep.html and journal.csv, to continue an interrupted sweep.\n"
+      "--threads is the number of runs at the same time (default: all cores).");
   command->callback([&work, request] { work = [request] { return sweep(*request); }; });
 }
 

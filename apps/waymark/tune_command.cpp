@@ -74,25 +74,26 @@ Result<void> tune(const TuneRequest& request) {
 }  // namespace
 
 void add_tune(CLI::App& app, Work& work) {
-  auto* command =
-      app.add_subcommand("tune", "Noise parameters that explain one or several logs best; a config");
+  auto* command = app.add_subcommand(
+      "tune", "Find the noise parameters that fit one or several logs best, and write them as a config");
   auto request = std::make_shared<TuneRequest>();
   command
       ->add_option("logs", request->logs,
-                   "what `waymark run` takes; LOG@KEY=VALUE,KEY=VALUE has settings of its own")
+                   "inputs as for `waymark run`; LOG@KEY=VALUE,KEY=VALUE sets keys for one log only")
       ->required()
       ->type_name("LOG");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-tune)")
       ->type_name("OUT");
   command
       ->add_option("--keys", request->keys,
-                   "config keys to tune; default the noise of odometry and observations")
+                   "config keys to tune; default: noise of odometry and observations")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("KEY,KEY,..");
   command
-      ->add_option("--by", request->by,
-                   "likelihood (default): of the innovations; rmse: of the path, where there is truth")
+      ->add_option(
+          "--by", request->by,
+          "criterion: likelihood (default) of the innovations, or rmse of the path, which needs ground truth")
       ->check(CLI::IsMember({"likelihood", "rmse"}));
   request->flags.add_to(*command);
   add_verbosity(*command, request->verbosity);
@@ -102,12 +103,10 @@ void add_tune(CLI::App& app, Work& work) {
       "  waymark tune LOG1 LOG2 LOG3 -o out\n"
       "  waymark tune MRCLAM_Dataset6@input.robot=1 MRCLAM_Dataset6@input.robot=2 -o out\n"
       "  waymark tune LOG --keys sensor.range_sigma_m,sensor.bearing_sigma_deg --by rmse -o out\n\n"
-      "Writes tuned.yaml (the tuned keys, for --config) and report.html. Several logs are left out one by "
-      "one "
-      "to see what\nthe values are worth on a log that they were not fitted to; a single log is cut into "
-      "four. "
-      "Begins at the values in\nforce. --threads is the number of runs beside each other (default: all "
-      "cores).");
+      "Writes tuned.yaml (the tuned keys, for --config) and report.html. Starts at the current values.\n"
+      "Cross-validation: each log is left out once (a single log is cut into four parts) and scored\n"
+      "with values tuned on the others.\n"
+      "--threads is the number of runs at the same time (default: all cores).");
   command->callback([&work, request] { work = [request] { return tune(*request); }; });
 }
 

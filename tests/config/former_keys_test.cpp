@@ -31,10 +31,10 @@ TEST(FormerKeys, AreRefusedInOneLine) {
   const auto renamed = schema.set("ekf.capacity", "50", "my.yaml:3");
   ASSERT_FALSE(renamed.ok());
   EXPECT_EQ(renamed.error().message,
-            "my.yaml:3: ekf.capacity is now map.capacity; `waymark config --migrate FILE` mends a file");
+            "my.yaml:3: ekf.capacity is now map.capacity; `waymark config --migrate FILE` updates a file");
   const auto gone = schema.set("markers.own_thread", "true", "--set");
   ASSERT_FALSE(gone.ok());
-  EXPECT_THAT(gone.error().message, HasSubstr("--set: markers.own_thread is gone: always true"));
+  EXPECT_THAT(gone.error().message, HasSubstr("--set: markers.own_thread was removed: always true"));
 }
 
 TEST(MigrateConfig, LeavesAFileOfTodayAlone) {
@@ -43,9 +43,11 @@ TEST(MigrateConfig, LeavesAFileOfTodayAlone) {
 }
 
 TEST(MigrateConfig, PutsWhatIsGoneIntoAComment) {
-  EXPECT_EQ(
-      migrated("seed: 3\nmarkers:\n  own_thread: false\n  confirm: 2\n"),
-      "seed: 3\nmarkers:\n  # own_thread: false  # markers.own_thread is gone: always true\n  confirm: 2\n");
+  EXPECT_EQ(migrated("seed: 3\nmarkers:\n  own_thread: false\n  confirm: 2\n"),
+            "seed: 3\n"
+            "markers:\n"
+            "  # own_thread: false  # markers.own_thread was removed: always true\n"
+            "  confirm: 2\n");
 }
 
 TEST(MigrateConfig, MovesWhatHasAnotherSection) {
@@ -62,16 +64,15 @@ TEST(MigrateConfig, KeepsOneOfTwoThatBecameOne) {
   EXPECT_THAT(migrated("ekf:\n  capacity: 1000\npixel:\n  capacity: 100\n"),
               testing::Not(HasSubstr("\nmap.capacity")))
       << "nobody had set them";
-  EXPECT_EQ(
-      migrated("ekf:\n  capacity: 50\npixel:\n  capacity: 60\n"),
-      "old.yaml:4: pixel.capacity is now map.capacity, which this file says twice and differently: keep "
-      "one");
+  EXPECT_EQ(migrated("ekf:\n  capacity: 50\npixel:\n  capacity: 60\n"),
+            "old.yaml:4: pixel.capacity is now map.capacity, which this file sets twice, to different "
+            "values; keep one of them");
 }
 
 TEST(MigrateConfig, RefusesALineThatHoldsMore) {
   EXPECT_EQ(migrated("ekf: {capacity: 50, likelihood: student}\n"),
-            "old.yaml:1: ekf.capacity is now map.capacity; this line holds more than that key: change it by "
-            "hand");
+            "old.yaml:1: ekf.capacity is now map.capacity; this line holds more than that key, so change it "
+            "by hand");
   EXPECT_THAT(migrated("ekf: [1]\n"), HasSubstr("old.yaml:1: ekf cannot be a list"));
 }
 

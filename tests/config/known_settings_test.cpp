@@ -34,7 +34,7 @@ TEST(KnownSettings, OfEveryConfigAreKeysThatThereAre) {
 }
 
 TEST(KnownSettings, ThatAreNotThereAreNamed) {
-  EXPECT_EQ(known_settings("nowhere").error().message, "configs/nowhere.yaml is not built in");
+  EXPECT_EQ(known_settings("nowhere").error().message, "configs/nowhere.yaml is not built into this program");
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ TEST(LoadYaml, LongTextsCountAsOftenAsAliasesRepeatThem) {
 }
 
 TEST(LoadYaml, WhatStandsWithinItselfIsRefused) {
-  EXPECT_THAT(refusal("a: &x\n  b: *x\n"), HasSubstr("f.yaml:2: an alias stands within what it stands for"));
-  EXPECT_THAT(refusal("&x [*x]"), HasSubstr("an alias stands within"));
+  EXPECT_THAT(refusal("a: &x\n  b: *x\n"), HasSubstr("f.yaml:2: an alias refers to a node that contains it"));
+  EXPECT_THAT(refusal("&x [*x]"), HasSubstr("an alias refers to a node"));
 }
 
 TEST(LoadYaml, DepthCountsThroughAliases) {

@@ -199,7 +199,7 @@ TEST_F(ConfigTest, RefusesMalformedYamlWithItsLine) {
 
 TEST_F(ConfigTest, RefusesASectionInsideItself) {
   EXPECT_THAT(load_error("gate: &loop\n  again: *loop\n"),
-              HasSubstr("robot.yaml:2: an alias stands within what it stands for"));
+              HasSubstr("robot.yaml:2: an alias refers to a node that contains it"));
 }
 
 TEST_F(ConfigTest, SurvivesRandomlyDamagedFiles) {

@@ -16,12 +16,12 @@ TEST(Failure, KeepsWhatAnExceptionSays) {
 }
 
 TEST(Failure, PutsMissingMemoryIntoWords) {
-  EXPECT_EQ(failure(std::bad_alloc()).message, "the memory does not suffice");
+  EXPECT_EQ(failure(std::bad_alloc()).message, "out of memory");
   try {
     std::vector<double>().reserve(std::vector<double>().max_size() + 1);
     FAIL() << "so much memory is nowhere";
   } catch (const std::exception& problem) {
-    EXPECT_EQ(failure(problem).message, "the memory does not suffice");
+    EXPECT_EQ(failure(problem).message, "out of memory");
   }
 }
 

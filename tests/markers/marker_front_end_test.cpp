@@ -241,7 +241,7 @@ TEST(MarkerFrontEnd, ALogWithoutImagesIsAnError) {
       drive({"observe=markers", "markers.dictionary=4x4_50", "markers.size_m=0.2"}, 4.0, "study");
   ASSERT_TRUE(recording.ok());
   ASSERT_TRUE(recording->error.has_value());
-  EXPECT_THAT(recording->error->message, HasSubstr("no image in which markers could be found"));
+  EXPECT_THAT(recording->error->message, HasSubstr("markers need images"));
 }
 
 TEST(MarkerConfig, WhoNamesMarkersWantsThemObserved) {

@@ -59,7 +59,7 @@ grep -q 'landmark_noise_px:' out.txt || fail "config --all: lacks a key"
 does config sensor
 [ "$(grep -vcE '^ |^$|^sensor:' out.txt)" -eq 0 ] || fail "config sensor: prints other sections"
 refuses 2 'did you mean' config senzor
-refuses 2 'fastslam.kld_error is gone' run sim:square -o o --set fastslam.kld_error=0.05
+refuses 2 'fastslam.kld_error was removed' run sim:square -o o --set fastslam.kld_error=0.05
 printf 'seed: 3\nekf:\n  capacity: 50  # small\n  likelihood: student\n' >old.yaml
 refuses 2 'old.yaml:3: ekf.capacity is now map.capacity' run sim:square -o o --config old.yaml
 does config --migrate old.yaml
@@ -197,7 +197,7 @@ pgm() { printf 'P5\n%s %s\n255\n' "$1" "$2" && head -c $(($1 * $2)) /dev/zero | 
 spoil && pgm 320 240 '\0' >spoilt/images/000020.png && pgm 320 240 '\377' >spoilt/images/000021.png
 pgm 160 120 '\0' >spoilt/images/000030.png && cp spoilt/images/000040.png spoilt/images/000041.png
 does run spoilt -o o
-for note in '2 images show nothing' 'has 160 x 120 pixels, expected 320 x 240' '1 images skipped: the stamp or every pixel'; do
+for note in '2 images show nothing' 'has 160 x 120 pixels, expected 320 x 240' '1 images skipped: same stamp or same pixels'; do
   grep -q "$note" out.txt || fail "the notes lack: $note"
 done
 spoil && sed -i '20{h;d};22G' spoilt/images.csv
@@ -343,7 +343,7 @@ kill -KILL $pid
 wait $pid 2>/dev/null
 done_before=$(($(wc -l <killed/journal.csv) - 2))
 does "${long[@]}" -o killed
-grep -q "of 40 runs are there already" out.txt || fail "sweep did not go on: $(cat out.txt)"
+grep -q "of 40 runs were already done" out.txt || fail "sweep did not go on: $(cat out.txt)"
 [ "$done_before" -lt 40 ] || fail 'the sweep was over before it was killed'
 [ "$(wc -l <killed/sweep.csv)" -eq 41 ] || fail 'a sweep that went on lacks runs'
 [ "$(sort killed/journal.csv | uniq -d | wc -l)" -eq 0 ] || fail 'a sweep that went on made runs twice'

@@ -133,10 +133,10 @@ fi
 if prlimit --as=700000000 "$waymark" --version >/dev/null 2>&1; then
   says 1 'could not start 255 threads' prlimit --as=700000000 \
     "$waymark" run sim:square --filter fastslam --threads 256 -o o
-  says 1 '1 of 2 runs could not be made, the first because: the memory does not suffice' prlimit --as=1000000000 \
+  says 1 '1 of 2 runs failed, the first because: out of memory' prlimit --as=1000000000 \
     "$waymark" sweep sim:square --axis fastslam.particles=10,10000000 --set filter=fastslam --threads 2 -o memory
   [ "$(wc -l <memory/sweep.csv)" -eq 3 ] || fail "sweep: expected a header and 2 rows: $(cat memory/sweep.csv)"
-  says 1 'the memory does not suffice' prlimit --as=1000000000 \
+  says 1 'out of memory' prlimit --as=1000000000 \
     "$waymark" run sim:square --filter fastslam --particles 10000000 -o o
 else
   echo 'SKIPPED: this build does not run in a limited address space'

@@ -56,7 +56,7 @@ TEST(CalibrationYaml, SaysWhatTheLogDoesNotTell) {
   estimate.prior_sigmas.head<6>() << 0.1, 0.1, 0.0, 0.0, 0.0, 0.0;
   const std::string yaml = calibration_yaml(estimate, {});
   EXPECT_THAT(yaml, HasSubstr("motion.speed_scale: 1  # +- 0.01\n"));
-  EXPECT_THAT(yaml, HasSubstr("motion.turn_scale: 1  # +- 0.1, as assumed: the log says nothing of it\n"));
+  EXPECT_THAT(yaml, HasSubstr("motion.turn_scale: 1  # +- 0.1, prior: not observable in this log\n"));
 }
 
 struct CalibratedRun {

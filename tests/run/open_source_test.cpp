@@ -38,12 +38,12 @@ TEST(OpenSource, RecognisesMatFilesByTheirVariablesAndChoosesTheRun) {
   const auto first = folder.write("a.mat", other);
   folder.write("b.mat", "damaged");
   EXPECT_THAT(open_source(first).error().message,
-              HasSubstr("a.mat is no log: expected the variables of Plaza (GT, DR, TD)"));
-  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("a.mat is no log"));
+              HasSubstr("a.mat is not a log: expected the variables of Plaza (GT, DR, TD)"));
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("a.mat is not a log"));
   EXPECT_THAT(open_source(folder.path(), {.run = 2}).error().message,
               HasSubstr("b.mat: is no MATLAB file that can be read"));
   EXPECT_THAT(open_source(folder.path(), {.run = 3}).error().message,
-              HasSubstr("there is no run 3; input.run can be 1 to 2"));
+              HasSubstr("no run 3; input.run can be 1 to 2"));
 }
 
 TEST(OpenSource, RecognisesPlazaAsTextAndTheLabyrinth) {
@@ -96,7 +96,7 @@ TEST(OpenSource, FolderThatIsNoLogTellsWhatWasExpectedAndFound) {
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("found nothing"));
   for (const char* name : {"a.txt", "b.txt", "c.txt", "d.txt", "e.txt", "f.txt"}) folder.write(name, "");
   const std::string error = open_source(folder.path()).error().message;
-  EXPECT_THAT(error, HasSubstr("is a directory but no log: expected a bag's metadata.yaml"));
+  EXPECT_THAT(error, HasSubstr("is a directory, but not a log: expected a bag's metadata.yaml"));
   EXPECT_THAT(error, HasSubstr("log.yaml with wheels.csv"));
   EXPECT_THAT(error, HasSubstr("Barcodes.dat"));
   EXPECT_THAT(error, HasSubstr("found a.txt, b.txt, c.txt, d.txt, e.txt and 1 more"));
@@ -108,7 +108,7 @@ TEST(OpenSource, FileOfALogPointsToItsFolder) {
   const auto file = folder.write("wheels.csv", "stamp_s,left_rad,right_rad\n");
   EXPECT_THAT(open_source(file).error().message, HasSubstr("give its folder, " + folder.path().string()));
   const TempFolder other;
-  EXPECT_THAT(open_source(other.write("x.bin", "\x01")).error().message, HasSubstr("x.bin is no log"));
+  EXPECT_THAT(open_source(other.write("x.bin", "\x01")).error().message, HasSubstr("x.bin is not a log"));
   EXPECT_THAT(open_source(other.write("drive.bag", "")).error().message,
               HasSubstr("drive.bag: the file is empty"));
 }

@@ -104,9 +104,10 @@ TEST(Smoother, LeavesOutWhatIsSeenInShortIntervals) {
 TEST(Smoother, SaysWhatCannotBeSmoothed) {
   LiveRun live = drive({});
   live.recording.motions.clear();
-  EXPECT_THAT(smooth(live.recording, live.config).error().message, HasSubstr("kept nothing to smooth"));
+  EXPECT_THAT(smooth(live.recording, live.config).error().message,
+              HasSubstr("has no poses and observations to smooth"));
   live.config.observe = Observe::kPixel;
-  EXPECT_THAT(smooth(live.recording, live.config).error().message, HasSubstr("not pixels"));
+  EXPECT_THAT(smooth(live.recording, live.config).error().message, HasSubstr("not with pixels"));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ bool is_memory(const std::exception& problem) {
 }  // namespace
 
 Error failure(const std::exception& problem) {
-  return {is_memory(problem) ? "the memory does not suffice" : problem.what(), Error::Kind::kFailed};
+  return {is_memory(problem) ? "out of memory" : problem.what(), Error::Kind::kFailed};
 }
 
 }  // namespace waymark

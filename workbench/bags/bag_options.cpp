@@ -4,24 +4,30 @@ namespace waymark {
 
 void describe(Schema& schema, BagOptions& o) {
   schema.text("input.odometry_topic", o.odometry_topic,
-              "topic of a bag that says how the robot moved; empty: the one whose type says most; none: none",
+              "topic of a bag with the odometry; empty: chosen by message type; none: ignore",
               Shown::kAlways);
   schema.text("input.observation_topic", o.observation_topic,
-              "topic of detected markers; empty: the one with most messages; none: none", Shown::kAlways);
+              "topic of a bag with detected markers; empty: the one with most messages; none: ignore",
+              Shown::kAlways);
   schema.text("input.image_topic", o.image_topic,
-              "topic of images; empty: the one with most messages; none: none", Shown::kAlways);
+              "topic of a bag with images; empty: the one with most messages; none: ignore", Shown::kAlways);
   schema.text("input.camera_info_topic", o.camera_info_topic,
-              "topic that describes the camera; empty: the one beside the images; none: none");
-  schema.text("input.truth_topic", o.truth_topic, "topic of the robot's true poses; empty or none: none",
+              "topic of a bag with the camera calibration (CameraInfo); empty: the one beside the images; "
+              "none: ignore");
+  schema.text("input.truth_topic", o.truth_topic,
+              "topic of a bag with the true poses of the robot; empty or none: no ground truth",
               Shown::kAlways);
   schema.text("input.left_joint", o.left_joint,
-              "joint of the left wheel in a JointState; empty: the first with left and wheel in its name");
-  schema.text("input.right_joint", o.right_joint, "... of the right wheel");
+              "name of the left wheel in JointState messages; empty: the first that contains left and wheel");
+  schema.text(
+      "input.right_joint", o.right_joint,
+      "name of the right wheel in JointState messages; empty: the first that contains right and wheel");
   schema.text("input.camera_file", o.camera_file,
-              "a ROS camera_info YAML file that describes the camera of a bag, instead of what the bag says",
+              "ROS camera_info YAML file of the camera, used instead of the calibration in the bag; empty: "
+              "use the bag's",
               Shown::kAlways);
   schema.choice("input.stamps", o.stamps, {"header", "recorded"},
-                "time of a message: of its header, or when it was recorded (for clocks that disagree)");
+                "time of a message: from its header, or when it was recorded (for clocks that disagree)");
 }
 
 }  // namespace waymark

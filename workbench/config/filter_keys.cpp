@@ -15,100 +15,99 @@ void resample_always(FastSlamOptions& o, bool always) {
 
 void describe(Schema& schema, GateOptions& options) {
   schema.real("gate.probability", options.probability, {0.5, 1.0},
-              "part of the true observations that may pass the gate; 1 lets all pass");
+              "probability that a correct observation passes the gate; 1 disables the gate");
 }
 
 void describe(Schema& schema, AssociationOptions& o) {
   schema.real("association.false_alarm_probability", o.false_alarm_probability, {1e-6, 0.5},
-              "chance per scan that something else is taken for a landmark");
+              "probability per scan that a landmark which does not exist appears to be observed");
   schema.real("association.clutter_per_scan", o.clutter_per_scan, {1e-6, 1e4},
-              "observations of nothing per scan");
+              "mean number of false observations (clutter) in a scan");
   schema.real("association.landmarks_per_m2", o.landmarks_per_m2, {0.0, 1e3},
-              "density of landmarks that are not known yet");
+              "density of landmarks that are not in the map yet, per m^2");
 }
 
 void describe(Schema& schema, EkfOptions& options) {
-  schema.choice(
-      "ekf.consistency", options.consistency, {"invariant", "fej", "standard"},
-      "where the filter linearises: invariant error, first estimates, or latest estimates as in the article",
-      Shown::kAlways);
+  schema.choice("ekf.consistency", options.consistency, {"invariant", "fej", "standard"},
+                "linearisation: invariant error, fej (first-estimates Jacobians) or standard (latest "
+                "estimate, as in Vincke et al. 2012)",
+                Shown::kAlways);
   schema.integer("ekf.iterations", options.iterations, {0, 20},
-                 "how often an update may be linearised anew where it leaves the linear; 0: never");
-  schema.choice(
-      "ekf.likelihood", options.likelihood, {"gaussian", "student"},
-      "student: heavy tails, for outliers that no gate finds; takes up to 3 iterations in any case");
+                 "maximum number of relinearisations in an update that is strongly nonlinear (iterated "
+                 "update); 0 disables them");
+  schema.choice("ekf.likelihood", options.likelihood, {"gaussian", "student"},
+                "distribution of observation errors; student has heavy tails, for outliers within the gate, "
+                "and relinearises up to 3 times");
   schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
-                "whether a large map is updated submap by submap, at the cost of a small one; auto: once it "
-                "is large enough to gain");
+                "compressed EKF: an update costs as much as a submap, for large maps; auto: once the map is "
+                "large enough");
   describe(schema, options.odometry);
 }
 
 void describe(Schema& schema, OdometryStateOptions& o) {
   schema.boolean(
       "ekf.calibrate_odometry", o.estimate,
-      "estimate what is always wrong with the odometry: scales of speed and turning, and a turning "
-      "rate that is missing; the result is in calibration.yaml",
+      "also estimate odometry calibration: scales of speed and turn, and turn bias; writes calibration.yaml",
       Shown::kAlways);
 }
 
 void describe(Schema& schema, PixelSlamOptions& options) {
   schema.real("pixel.sigma_px", options.sigma_px, {1e-3, 100.0},
-              "standard deviation of pixels that came without covariance, px");
+              "standard deviation of logged pixels that have no covariance, px");
   schema.real("pixel.model_sigma_px", options.model_sigma_px, {0.0, 100.0},
-              "what every pixel is off besides, anew in every image, px");
-  schema.real(
-      "pixel.landmark_noise_px", options.landmark_noise_px, {0.0, 100.0},
-      "standard deviation of how far the place of a patch wanders on its surface while the view of it "
-      "turns by 1 deg, px; grows with the root of the angle");
-  schema.real("pixel.nearest_m", options.depth.nearest_m, {0.01, 1000.0}, "smallest depth of a new point, m");
-  schema.real("pixel.farthest_m", options.depth.farthest_m, {0.1, 1e6}, "largest depth of a new point, m");
+              "additional standard deviation of every pixel, px; covers errors of camera and motion model");
+  schema.real("pixel.landmark_noise_px", options.landmark_noise_px, {0.0, 100.0},
+              "landmark process noise: standard deviation of a patch's drift on its surface while the view "
+              "turns by 1 degree, px; grows with the root of the angle");
+  schema.real("pixel.nearest_m", options.depth.nearest_m, {0.01, 1000.0},
+              "smallest possible depth of a new landmark, m");
+  schema.real("pixel.farthest_m", options.depth.farthest_m, {0.1, 1e6},
+              "largest possible depth of a new landmark, m");
 }
 
 void describe(Schema& schema, FastSlamOptions& o) {
   schema.choice("fastslam.proposal", o.proposal, {"1.0", "2.0"},
-                "FastSLAM 1.0 draws from the odometry alone, 2.0 from odometry and observations");
+                "1.0 draws poses from the odometry alone, 2.0 from odometry and observations");
   schema.integer("fastslam.particles", o.particles, {1, 10'000'000}, "number of particles", Shown::kAlways);
   schema.boolean(
       "fastslam.always_resample", [&o] { return resamples_always(o); },
       [&o](bool always) { resample_always(o, always); },
-      "resample at every step by the weights as they are; else only when half of the particles would be "
-      "left, "
-      "by weights that keep a tenth of them");
-  schema.real(
-      "fastslam.enkf_above", o.enkf_above, {0.0, 1e9},
-      "use the EnKF update where the spread of predicted innovations over their noise exceeds this, for 100 "
-      "particles; grows in proportion to their number");
+      "true: resample at every step; false: only if N_eff falls below half, with weights tempered to keep "
+      "N_eff above a tenth");
+  schema.real("fastslam.enkf_above", o.enkf_above, {0.0, 1e9},
+              "use the EnKF update where spread / noise of predicted innovations exceeds this, for 100 "
+              "particles; scales with their number; 1e9 disables it");
   schema.real("fastslam.noise_inflation", o.noise_inflation, {0.1, 100.0},
-              "factor on the standard deviations of observations; few particles need a blunter sensor");
-  schema.real(
-      "fastslam.information_distance_m", o.information_distance_m, {0.0, 1000.0},
-      "a landmark seen again after this way counts 63 % in the weights; 0: every observation counts in full");
+              "factor on the standard deviations of observations; above 1 if few particles degenerate");
+  schema.real("fastslam.information_distance_m", o.information_distance_m, {0.0, 1000.0},
+              "distance travelled after which a landmark that is observed again has 63 % of its weight, m; "
+              "0: always full weight");
 }
 
 void describe(Schema& schema, SmoothOptions& o) {
   schema.boolean("smooth.run", o.run,
-                 "estimate the whole path and map once more, from the whole log, when it has ended",
+                 "after the log has ended, estimate the whole path and map again from all of it",
                  Shown::kAlways);
   schema.real("smooth.robust_dof", o.robust_dof, {1.0, 1e6},
-              "degrees of freedom of the Student-t distribution of all errors there: the fewer, the less "
-              "outliers count");
+              "degrees of freedom of the Student-t distribution of all errors; fewer trust outliers less");
   schema.boolean("smooth.odometry_is_commanded", o.odometry_is_commanded,
-                 "what is logged are commands, from which the robot strays; else it was measured, and it is "
-                 "the measurements that err");
+                 "odometry is commanded, not measured: the robot deviates from exact commands");
   schema.real("smooth.keyframe_distance_m", o.keyframe_distance_m, {0.0, 1000.0},
-              "what is seen nearer than this to the last pose that is estimated, and after less turning than "
-              "smooth.keyframe_turn_deg, is left out, m");
-  schema.real("smooth.keyframe_turn_deg", o.keyframe_turn_deg, {0.0, 360.0}, "the turning there, degrees");
-  schema.real(
-      "smooth.turn_per_m_sigma_deg", o.turn_per_m_sigma_deg, {0.0, 1000.0},
-      "standard deviation of what the odometry turns by itself per metre, as with wheels of different size, "
-      "degrees; 0: nothing");
+              "minimum distance between keyframes, m; observations before that and smooth.keyframe_turn_deg "
+              "are left out; 0 keeps all");
+  schema.real("smooth.keyframe_turn_deg", o.keyframe_turn_deg, {0.0, 360.0},
+              "minimum turn between keyframes, degrees; a keyframe is made once distance or turn is reached; "
+              "0 keeps all");
+  schema.real("smooth.turn_per_m_sigma_deg", o.turn_per_m_sigma_deg, {0.0, 1000.0},
+              "standard deviation of a turn bias per metre driven (wheels of different size), degrees per "
+              "metre; 0: not estimated");
   schema.real("smooth.mount_sigma_m", o.mount_sigma_m, {0.0, 100.0},
-              "the same of where the landmark sensor sits on the robot, m; 0: where the config says");
+              "standard deviation of the position of the landmark sensor on the robot, m; 0: not estimated");
   schema.real("smooth.mount_yaw_sigma_deg", o.mount_yaw_sigma_deg, {0.0, 180.0},
-              "the same of where it looks, beside what sensor.shared_bearing_sigma_deg says, degrees");
+              "standard deviation of the yaw of the landmark sensor on the robot, added to "
+              "sensor.shared_bearing_sigma_deg, degrees; 0: nothing to add");
   schema.real("smooth.delay_sigma_s", o.delay_sigma_s, {0.0, 10.0},
-              "the same of how late its stamps are, s; 0: as sensor.delay_s says");
+              "standard deviation of sensor.delay_s, s; 0: not estimated");
 }
 
 }  // namespace waymark

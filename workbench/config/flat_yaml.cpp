@@ -32,11 +32,11 @@ class Flattener {
   Result<void> add_entry(const YAML::Node& key_node, const YAML::Node& value, const std::string& prefix) {
     const int line = key_node.Mark().line + 1;
     if (++steps_ > kMaxSteps)
-      return Error{fmt::format("{}:{}: too many keys, sections of aliases included", name_, line)};
+      return Error{fmt::format("{}:{}: too many keys (those of aliases count, too)", name_, line)};
     if (!key_node.IsScalar()) return Error{fmt::format("{}:{}: a key must be a plain name", name_, line)};
     const std::string key = prefix + key_node.Scalar();
     if (key.size() > kMaxKeyLength)
-      return Error{fmt::format("{}:{}: a key of {} characters", name_, line, key.size())};
+      return Error{fmt::format("{}:{}: a key of {} characters is too long", name_, line, key.size())};
     if (value.IsMap()) return add(value, key + '.');
     if (value.IsSequence()) return Error{fmt::format("{}:{}: {} cannot be a list", name_, line, key)};
     if (value.IsNull() && !prefix.empty())

@@ -14,7 +14,7 @@
 namespace waymark {
 namespace {
 
-constexpr std::string_view kOfArticle = "pixel.article=true chooses what the article does";
+constexpr std::string_view kOfArticle = "set pixel.article=true for the methods of Vincke et al. 2012";
 
 struct Renamed {
   std::string_view key;
@@ -56,14 +56,15 @@ constexpr auto kGone = std::to_array<Gone>({
     {"association.most_log_odds", "always 12"},
     {"association.most_pairings", "always 2000"},
     {"corners.arc", "always 12"},
-    {"ekf.evict", "the landmark that told least about the pose leaves a full map"},
+    {"ekf.evict", "the least informative landmark is always removed from a full map"},
     {"ekf.region", "always 64"},
     {"ekf.update", kOfArticle},
-    {"fastslam.init", "a landmark begins as all that an observation allows"},
+    {"fastslam.init",
+     "a landmark that was observed by range or bearing alone always starts as a whole ring or ray"},
     {"fastslam.kld_error", "the number of particles stays fastslam.particles"},
     {"fastslam.kld_least", "the number of particles stays fastslam.particles"},
-    {"fastslam.resample_below", "0.5, or fastslam.always_resample=true"},
-    {"fastslam.temper_below", "0.1, or fastslam.always_resample=true"},
+    {"fastslam.resample_below", "always 0.5, or set fastslam.always_resample=true"},
+    {"fastslam.temper_below", "always 0.1, or set fastslam.always_resample=true"},
     {"markers.max_tilt_deg", "always 75"},
     {"markers.own_thread", "always true"},
     {"motion.arc", kOfArticle},
@@ -122,7 +123,7 @@ class Migration {
     const std::size_t colon = line.find(':');
     const std::string_view written = std::string_view(line).substr(at, colon - at);
     if (colon == std::string::npos || (written != former.key && written != last_part(former.key)))
-      return Error{fmt::format("{}:{}: {}; this line holds more than that key: change it by hand", name_,
+      return Error{fmt::format("{}:{}: {}; this line holds more than that key, so change it by hand", name_,
                                entry.line, what_became_of(former))};
     if (former.now.empty() || entry.value == former.dropped_value)
       line = fmt::format("{}# {}  # {}", line.substr(0, at), line.substr(at), what_became_of(former));
@@ -148,8 +149,8 @@ class Migration {
     }
     const auto [known, is_new] = moved_.emplace(former.now, entry.value);
     if (!is_new && known->second != entry.value)
-      return Error{fmt::format("{}:{}: {}, which this file says twice and differently: keep one", name_,
-                               entry.line, what_became_of(former))};
+      return Error{fmt::format("{}:{}: {}, which this file sets twice, to different values; keep one of them",
+                               name_, entry.line, what_became_of(former))};
     line = fmt::format("{}# {}  # {}", line.substr(0, at), line.substr(at), what_became_of(former));
     return {};
   }
@@ -169,7 +170,7 @@ const FormerKey* find_former_key(std::string_view key) {
 }
 
 std::string what_became_of(const FormerKey& former) {
-  return former.now.empty() ? fmt::format("{} is gone: {}", former.key, former.why)
+  return former.now.empty() ? fmt::format("{} was removed: {}", former.key, former.why)
                             : fmt::format("{} is now {}", former.key, former.now);
 }
 

@@ -22,7 +22,7 @@ struct FormerKey {
 /// Null where there never was such a key, or where it is still there.
 [[nodiscard]] const FormerKey* find_former_key(std::string_view key);
 
-/// For a person: "a is now b", or "a is gone: why".
+/// For a person: "a is now b", or "a was removed: why".
 [[nodiscard]] std::string what_became_of(const FormerKey& former);
 
 /// A config file (YAML, `name` in errors) of an earlier version as one of today: a key that was renamed has

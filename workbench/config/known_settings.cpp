@@ -13,7 +13,7 @@ Result<std::vector<std::pair<std::string, std::string>>> known_settings(std::str
   const std::string file = fmt::format("configs/{}.yaml", name);
   const auto texts = known_settings_texts();
   const auto text = std::ranges::find(texts, name, &SettingsText::name);
-  if (text == texts.end()) return Error{file + " is not built in"};
+  if (text == texts.end()) return Error{file + " is not built into this program"};
   const auto entries = flatten_yaml(text->yaml, file);
   if (!entries) return entries.error();
   std::vector<std::pair<std::string, std::string>> settings;

@@ -44,7 +44,8 @@ class ExtentMeter final : public YAML::EventHandler {
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto known = known_.find(anchor);
-    if (known == known_.end()) throw YAML::ParserException(mark, "an alias stands within what it stands for");
+    if (known == known_.end())
+      throw YAML::ParserException(mark, "an alias refers to a node that contains it");
     add(mark, known->second);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
@@ -90,7 +91,7 @@ class ExtentMeter final : public YAML::EventHandler {
     whole.add(part);
     if (whole.depth > kMaxDepth) throw YAML::ParserException(mark, "nested too deep");
     if (whole.nodes > kMaxNodes || whole.bytes > kMaxBytes)
-      throw YAML::ParserException(mark, "too many values, aliases counted as what they stand for");
+      throw YAML::ParserException(mark, "too many values (those of aliases count, too)");
   }
 
   std::vector<OpenPart> open_;
@@ -109,7 +110,7 @@ void check_extent(const std::string& yaml) {
 Result<YAML::Node> load_yaml(const std::string& yaml, const std::string& name) {
   if (yaml.size() > kMaxBytes)
     return Error{
-        fmt::format("{}: {} bytes of YAML; more than {} are not read", name, yaml.size(), kMaxBytes)};
+        fmt::format("{}: {} bytes of YAML are too many; at most {} are read", name, yaml.size(), kMaxBytes)};
   try {
     check_extent(yaml);
     return YAML::Load(yaml);

@@ -29,9 +29,9 @@ Result<const void*> functions_of(const fs::path& path) {
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return Error{fmt::format("{} cannot be loaded: {}", path.string(), dlerror())};
   const auto* module = static_cast<const Module*>(dlsym(library, "waymark_module"));
-  if (module == nullptr) return Error{path.string() + " is no module of Waymark"};
+  if (module == nullptr) return Error{path.string() + " is not a module of Waymark"};
   if (std::string_view(module->version) != kModuleVersion)
-    return Error{fmt::format("{} is of {}, this program of {}: build both together", path.string(),
+    return Error{fmt::format("{} is from {}, but this program is from {}; build both together", path.string(),
                              module->version, kModuleVersion)};
   return module->functions;
 }

@@ -36,7 +36,7 @@ Result<void> check_is_file(const fs::path& path) {
     case fs::file_type::none:
       return cannot_read(path, failed.value());
     default:
-      return cannot_read(path, "this is a device, a pipe or a socket; a file is needed");
+      return cannot_read(path, "not a regular file, but a device, a pipe or a socket");
   }
 }
 

@@ -196,7 +196,7 @@ Result<void> Schema::set(std::string_view key, std::string_view value, std::stri
   const auto found = std::ranges::find(keys_, key, &Key::name);
   if (found == keys_.end()) {
     if (const FormerKey* former = find_former_key(key))
-      return Error{fmt::format("{}: {}; `waymark config --migrate FILE` mends a file", where,
+      return Error{fmt::format("{}: {}; `waymark config --migrate FILE` updates a file", where,
                                what_became_of(*former))};
     const std::string guess = nearest(key);
     return Error{fmt::format("{}: unknown key {}{}", where, key,

@@ -35,11 +35,11 @@ std::vector<CalibratedKey> calibrated_keys(const CalibrationEstimate& estimate, 
 }
 
 std::string calibration_yaml(std::span<const CalibratedKey> keys) {
-  std::string yaml = "# What the log says about the sensors; for --config.\n";
+  std::string yaml = "# Calibration of odometry and sensors from a log; use it with --config.\n";
   for (const auto& [key, value, sigma, is_unobservable] : keys)
     yaml +=
         fmt::format("{}: {:.6g}{}{}\n", key, value, sigma > 0.0 ? fmt::format("  # +- {:.2g}", sigma) : "",
-                    is_unobservable ? ", as assumed: the log says nothing of it" : "");
+                    is_unobservable ? ", prior: not observable in this log" : "");
   return yaml;
 }
 
@@ -49,7 +49,7 @@ std::string calibration_yaml(const CalibrationEstimate& estimate, const Config& 
   if (const double track_m = odometry.wheels.track_m; estimate.is_estimated(kTurnScale) && track_m > 0.0) {
     const double speed_scale = odometry.speed_scale * (1.0 + estimate.mean[kSpeedScale]);
     const double turn_scale = odometry.turn_scale * (1.0 + estimate.mean[kTurnScale]);
-    yaml += fmt::format("# Scales as a track of the wheels: {:.4f} m instead of {:.4f} m.\n",
+    yaml += fmt::format("# The same scales as a wheel track: {:.4f} m instead of {:.4f} m.\n",
                         track_m * speed_scale / turn_scale, track_m);
   }
   return yaml;

@@ -84,43 +84,42 @@ void describe_shared(Schema& schema, Config& config) {
   OdometryStateOptions& live = config.ekf.odometry;
   SmoothOptions& smooth = config.smooth;
   schema.real("motion.speed_scale_sigma", {&live.speed_scale_sigma, &smooth.speed_scale_sigma}, {0.0, 1.0},
-              "standard deviation of the true distance per measured distance, where it is estimated "
-              "(ekf.calibrate_odometry, smooth.run); 0: it is 1");
+              "relative standard deviation of motion.speed_scale, where ekf.calibrate_odometry or smooth.run "
+              "estimate it; 0: not estimated");
   schema.real("motion.turn_scale_sigma", {&live.turn_scale_sigma, &smooth.turn_scale_sigma}, {0.0, 1.0},
-              "the same of the true turn per measured turn");
+              "relative standard deviation of motion.turn_scale, where it is estimated; 0: not estimated");
   schema.real("motion.turn_bias_sigma_degps", {&live.turn_bias_sigma_degps, &smooth.turn_bias_sigma_degps},
               {0.0, 100.0},
-              "the same of what the odometry turns too little while the robot moves, degrees per second; 0: "
-              "nothing");
+              "standard deviation of motion.turn_bias_degps, where it is estimated, degrees per second; 0: "
+              "not estimated");
   schema.real("camera.jitter_deg", {&config.pixel.jitter_deg, &config.markers.jitter_deg}, {0.0, 10.0},
-              "standard deviation of how the camera shakes on its robot, anew in every image, degrees");
+              "standard deviation of the camera jitter, drawn anew in every image, degrees");
   schema.integer("pixel.max_candidates",
                  {&config.pixel.max_candidates, &config.tracker.new_corners.max_candidates}, {1, 100},
-                 "points whose depth is being found out at once");
+                 "maximum number of new landmarks whose depth is being estimated at once");
   schema.boolean(
       "pixel.article", [&config] { return uses_article_methods(config); },
       [&config](bool use) { use_article_methods(config, use); },
-      "the methods of the 2012 article, to compare with; needs observe=pixel and ekf.consistency=standard");
+      "use the algorithms of Vincke et al. 2012, for comparison; needs observe=pixel and "
+      "ekf.consistency=standard");
 }
 
 }  // namespace
 
 Schema describe(Config& config) {
   Schema schema;
-  schema.choice("filter", config.filter, {"ekf", "fastslam"}, "which filter estimates path and map",
-                Shown::kAlways);
+  schema.choice("filter", config.filter, {"ekf", "fastslam"},
+                "filter that estimates path and map: EKF-SLAM or FastSLAM", Shown::kAlways);
   schema.choice("observe", config.observe, {"range-bearing", "range", "bearing", "pixel", "markers"},
-                "which part of the observations is used; pixel: natural corners in images, or given pixels; "
-                "markers: ArUco markers or AprilTags in images; the default is what the log offers",
+                "observations to use; pixel: corners in images or logged pixels, markers: ArUco or AprilTag "
+                "markers in images; chosen by the log unless set",
                 Shown::kAlways);
-  schema.choice(
-      "associate", config.associate, {"known", "nearest", "jcbb", "ml"},
-      "how observations find their landmarks: by identity alone, or also without one: nearest (pair "
-      "by pair) and jcbb (jointly) are the EKF's, ml (by maximum likelihood) is FastSLAM's; the "
-      "default is what the log allows",
-      Shown::kAlways);
+  schema.choice("associate", config.associate, {"known", "nearest", "jcbb", "ml"},
+                "data association: known by identity alone; without identities nearest (neighbour) or jcbb "
+                "with the EKF, ml (maximum likelihood) with FastSLAM; chosen by the log unless set",
+                Shown::kAlways);
   schema.integer("seed", config.seed, {0, 9007199254740992.0}, "seed of all random numbers", Shown::kAlways);
-  schema.integer("threads", config.threads, {1, 256}, "threads to use; the result does not depend on it",
+  schema.integer("threads", config.threads, {1, 256}, "number of threads; does not change the result",
                  Shown::kAlways);
   describe(schema, config.input);
   describe(schema, config.odometry);

@@ -3,17 +3,16 @@
 namespace waymark {
 
 void describe(Schema& schema, InputOptions& options) {
-  schema.integer("input.robot", options.robot, {1, 99}, "which robot, where a recording holds several",
-                 Shown::kAlways);
+  schema.integer("input.robot", options.robot, {1, 99},
+                 "number of the robot, where a recording holds several (MRCLAM)", Shown::kAlways);
   schema.integer("input.run", options.run, {1, 99},
-                 "which recording of a folder that holds several, in the order of their names",
+                 "number of the recording in a folder that holds several, in alphabetical order",
                  Shown::kAlways);
   schema.boolean("input.fix_known_errors", options.fix_known_errors,
-                 "put right what is known to be wrong in a published recording");
-  schema.real(
-      "input.pixel_noise_px", options.pixel_noise_px, {0.0, 100.0},
-      "standard deviation of the noise that is added to points recorded without any (planar-mono-slam), "
-      "px");
+                 "correct known errors of a published recording");
+  schema.real("input.pixel_noise_px", options.pixel_noise_px, {0.0, 100.0},
+              "standard deviation of the noise added to pixels that were recorded without noise "
+              "(planar-mono-slam), px");
   describe(schema, options.bag);
 }
 

@@ -22,7 +22,7 @@ Result<void> check_capacity(const Config& config) {
                    : config.observe == Observe::kPixel    ? 2'000
                                                           : 20'000;
   if (config.map.capacity <= most) return {};
-  return Error{fmt::format("map.capacity: {} landmarks are more than this filter takes, {}",
+  return Error{fmt::format("map.capacity: {} landmarks are too many; this filter takes at most {}",
                            config.map.capacity, most)};
 }
 
@@ -70,28 +70,31 @@ Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState
   if (config.associate == Association::kMl)
     return Error{"associate: ml needs filter=fastslam; the EKF takes known, nearest or jcbb"};
   if (config.associate != Association::kKnown && !observes_position(config.observe))
-    return Error{"associate: pixels, and range or bearing alone, need identities: associate=known"};
+    return Error{
+        "associate: observations by pixel, range alone or bearing alone need identities; set "
+        "associate=known"};
   if (config.pixel.update == UpdateMethod::kTextbook &&
       (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
     return Error{"pixel.article: needs observe=pixel and ekf.consistency=standard"};
   if (config.ekf.odometry.estimate &&
       (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
     return Error{
-        "ekf.calibrate_odometry: not with observe=pixel, nor with ekf.compressed=true: it moves the whole "
-        "map"};
+        "ekf.calibrate_odometry: cannot be used with observe=pixel or ekf.compressed=true, because it "
+        "updates the whole map"};
   if (config.observe == Observe::kPixel) return make_pixel_ekf(config, start);
   return make_planar_ekf(config, start);
 }
 
 Result<FilterSystem> make_fastslam(const Config& config) {
   if (config.observe == Observe::kPixel)
-    return Error{"filter: fastslam does not take pixels; filter=ekf does, or choose another observe"};
+    return Error{"filter: fastslam cannot use pixels; set filter=ekf or another value of observe"};
   if (config.associate == Association::kNearest || config.associate == Association::kJcbb)
     return Error{"associate: nearest and jcbb need filter=ekf; FastSLAM takes known or ml"};
   const bool by_likelihood = config.associate == Association::kMl;
   if (by_likelihood && (config.observe == Observe::kRange || config.observe == Observe::kBearing))
     return Error{
-        "associate: ml takes range-bearing; range or bearing alone needs identities: associate=known"};
+        "associate: ml takes range-bearing only; observations by range alone or bearing alone need "
+        "identities; set associate=known"};
   FastSlamOptions options = config.fastslam;
   options.capacity = capacity_of(config, options.capacity);
   options.gate = config.gate;
@@ -117,11 +120,10 @@ Result<std::optional<MapState>> read_start_map(const Config& config) {
     return Error{"map.file: a saved map needs filter=ekf and observe=range-bearing, markers or pixel"};
   if (config.map.localize && pixels)
     return Error{
-        "map.localize: needs observe=range-bearing or markers; with pixels a run goes on from the pose in "
-        "the map "
-        "(map.localize=false)"};
+        "map.localize: needs observe=range-bearing or markers; with observe=pixel a run can only continue "
+        "from the pose in the map (map.localize=false)"};
   if (config.smooth.run)
-    return Error{"smooth.run: takes a log from its start, not on from a saved map (map.file)"};
+    return Error{"smooth.run: cannot be used with a saved map (map.file); it needs the log from its start"};
   auto map = pixels ? read_start_map(config.map, 3, capacity_of(config, config.pixel.capacity))
                     : read_start_map(config.map, 2, capacity_of(config, config.ekf.capacity));
   if (!map) return map.error();

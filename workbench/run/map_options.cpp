@@ -9,14 +9,16 @@
 namespace waymark {
 
 void describe(Schema& schema, MapOptions& options) {
-  schema.text("map.file", options.file, "saved map (map.waymark) to start from; empty: an empty map",
-              Shown::kAlways);
-  schema.boolean("map.localize", options.localize,
-                 "hold the map of map.file as it is and find the pose alone, from anywhere in it",
-                 Shown::kAlways);
-  schema.integer("map.capacity", options.capacity, {0, 1'000'000},
-                 "most landmarks in the map, for which memory is taken once; 0: 1000, with observe=pixel 100",
-                 Shown::kAlways);
+  schema.text("map.file", options.file,
+              "saved map (map.waymark) to start from; empty: start with an empty map", Shown::kAlways);
+  schema.boolean(
+      "map.localize", options.localize,
+      "keep the map of map.file unchanged and estimate only the pose; the robot may start anywhere in it",
+      Shown::kAlways);
+  schema.integer(
+      "map.capacity", options.capacity, {0, 1'000'000},
+      "maximum number of landmarks in the map, allocated at the start; 0: 1000, or 100 with observe=pixel",
+      Shown::kAlways);
 }
 
 Result<MapState> read_start_map(const MapOptions& options, int dimension, int capacity) {
@@ -24,16 +26,16 @@ Result<MapState> read_start_map(const MapOptions& options, int dimension, int ca
   if (!map) return map;
   if (map->landmark_dimension != dimension)
     return Error{
-        fmt::format("{}: its landmarks are of dimension {}; what is observed (observe) needs a map of "
-                    "dimension {}: 2 for range and bearing, 3 for pixels",
+        fmt::format("{}: its landmarks are of dimension {}, but the value of observe needs dimension {}: 2 "
+                    "for range and bearing, 3 for pixels",
                     options.file, map->landmark_dimension, dimension)};
   if (std::ssize(map->ids) > capacity)
-    return Error{fmt::format("{}: {} landmarks are more than map.capacity={} has room for; set it to more",
-                             options.file, map->ids.size(), capacity)};
+    return Error{fmt::format("{}: {} landmarks are more than map.capacity={}; raise it", options.file,
+                             map->ids.size(), capacity)};
   constexpr std::size_t kPixels = vision::ReferencePatch::kSide * vision::ReferencePatch::kSide;
   for (const LandmarkPatch& patch : map->patches)
     if (patch.pixels.size() != kPixels)
-      return Error{fmt::format("{}: the patch of landmark {} has {} pixels; {} x {} are needed", options.file,
+      return Error{fmt::format("{}: the patch of landmark {} has {} pixels; expected {} x {}", options.file,
                                to_string(patch.id), patch.pixels.size(), vision::ReferencePatch::kSide,
                                vision::ReferencePatch::kSide)};
   return map;

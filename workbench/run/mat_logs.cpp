@@ -37,7 +37,7 @@ Error unknown_variables(const MatFile& file) {
   std::vector<std::string> formats;
   for (const MatFormat& format : mat_formats())
     formats.push_back(fmt::format("{} ({})", format.name, format.expects));
-  return {fmt::format("{} is no log: expected the variables of {}; found {}", file.path().string(),
+  return {fmt::format("{} is not a log: expected the variables of {}; found {}", file.path().string(),
                       one_of(formats), file.names().empty() ? "none" : file.names())};
 }
 

@@ -38,7 +38,7 @@ std::vector<std::string> expected_in_folders() {
 }
 
 Error no_log_in(const fs::path& folder) {
-  return {fmt::format("{} is a directory but no log: expected {}; found {}", folder.string(),
+  return {fmt::format("{} is a directory, but not a log: expected {}; found {}", folder.string(),
                       fmt::join(expected_in_folders(), "; or "), some_content(folder))};
 }
 
@@ -58,11 +58,11 @@ std::vector<std::string> format_names() {
 Error no_log_file(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (is_log_of_several_files(folder))
-    return {fmt::format("{} is one file of a log; give its folder, {}", file.string(), folder.string())};
+    return {fmt::format("{} is only one file of a log; give its folder, {}", file.string(), folder.string())};
   std::error_code ignored;
   if (fs::is_regular_file(file, ignored) && fs::is_empty(file, ignored))
     return {file.string() + ": the file is empty; was its recording cut off?"};
-  return {fmt::format("{} is no log: expected {}", file.string(), fmt::join(format_names(), "; or "))};
+  return {fmt::format("{} is not a log: expected {}", file.string(), fmt::join(format_names(), "; or "))};
 }
 
 }  // namespace

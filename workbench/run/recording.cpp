@@ -18,14 +18,14 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
   const auto note = [&lines](std::int64_t count, const char* what) {
     if (count > 0) lines.push_back(fmt::format("{} {}", count, what));
   };
-  note(counts.late, "events dropped: they came later than pipeline.reorder_window_s allows");
+  note(counts.late, "events dropped: later than pipeline.reorder_window_s allows");
   note(counts.unusable, "observations dropped: not finite or outside the sensor's range limits");
-  note(counts.wrong_kind, "observations dropped: they lack what `observe` asks for");
-  note(counts.other_odometry, "odometry events ignored: of a second kind or device");
-  note(counts.other_robots, "events ignored: of another robot than the first");
-  note(counts.robots_seen, "observations dropped: of other robots, which are no landmarks");
-  note(counts.misfits, "images skipped: another size than camera.width_px x camera.height_px");
-  note(counts.repeats, "images skipped: the stamp or every pixel of the one before");
+  note(counts.wrong_kind, "observations dropped: they do not measure what the key observe asks for");
+  note(counts.other_odometry, "odometry events ignored: from a second kind of odometry or a second device");
+  note(counts.other_robots, "events ignored: from another robot than the first");
+  note(counts.robots_seen, "observations dropped: of other robots, which are not landmarks");
+  note(counts.misfits, "images skipped: their size is not camera.width_px x camera.height_px");
+  note(counts.repeats, "images skipped: same stamp or same pixels as the image before");
   note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
   return lines;
 }
@@ -38,7 +38,7 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
     const auto count = std::ranges::count_if(
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)
-      lines.push_back(fmt::format("{} observations refused by the filter: {}", count, describe(outcome)));
+      lines.push_back(fmt::format("{} observations not used by the filter: {}", count, describe(outcome)));
   }
   return lines;
 }
@@ -47,9 +47,7 @@ std::vector<std::string> describe_unobservable(const Config& config) {
   if (!config.ekf.odometry.estimate || config.filter != FilterKind::kEkf ||
       observes_scale(config.observe, config.sensor.errors))
     return {};
-  return {
-      "motion.speed_scale was not estimated: without ranges of known scale nothing tells a large world from "
-      "a small one"};
+  return {"motion.speed_scale was not estimated: it is not observable without ranges of known scale"};
 }
 
 /// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
@@ -84,7 +82,7 @@ std::optional<Error> read_all(Source& source, const TimeSpan& span,
   std::optional<Stamp> start;
   for (std::int64_t count = 0;; ++count) {
     if (keep_going && count % kEventsPerQuestion == 0 && !keep_going(source.progress()))
-      return Error{"stopped; the results up to here are kept", Error::Kind::kFailed};
+      return Error{"stopped; the results so far are kept", Error::Kind::kFailed};
     auto event = source.next();
     if (!event) return event.error();
     if (!*event) return std::nullopt;
@@ -112,10 +110,10 @@ Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
   if (config.camera_known || !looks_into_images(config.observe) || !shows_pixels(event.content)) return {};
   return Error{
-      "camera.fu_px: nobody says what the camera is like: put its camera_info file, as `waymark calibrate "
-      "camera PHOTOS` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
-      "camera.fu_px, camera.fv_px, camera.cu_px and camera.cv_px; for a bag name the file: "
-      "input.camera_file"};
+      "camera.fu_px: the camera is not calibrated: put its camera_info file, as `waymark calibrate camera "
+      "PHOTOS` writes one, into the log as camera.yaml, or set camera.width_px, camera.height_px, "
+      "camera.fu_px, camera.fv_px, camera.cu_px and camera.cv_px; for a bag set input.camera_file to the "
+      "file"};
 }
 
 /// Truth goes to the record, the rest to the pipeline; wheels, cars and cameras that nobody knows end the
@@ -135,23 +133,21 @@ Result<void> route(Event event, const Config& config, Recording& recording, Pipe
 std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe) {
   if (observe == Observe::kMarkers && recording.counts.images == 0)
     return Error{
-        "observe: this log has no image in which markers could be found; `waymark check` lists what it "
-        "has"};
+        "observe: markers need images, and this log has no image that can be used; `waymark check` lists "
+        "what it has"};
   if (observe == Observe::kPixel && recording.counts.images == 0 && recording.innovations.empty())
     return Error{
-        "observe: this log has no image and no pixel observation that can be used; `waymark check` lists "
-        "what it has"};
+        "observe: pixel needs images or pixel observations, and this log has no image and no pixel "
+        "observation that can be used; `waymark check` lists what it has"};
   if (recording.counts.wrong_kind == 0 || recording.counts.unusable > 0 || !recording.innovations.empty())
     return std::nullopt;
-  return Error{
-      "observe: no observation of this log has what this asks for; `waymark check` lists what it has"};
+  return Error{"observe: no observation of this log measures this; `waymark check` lists what it has"};
 }
 
 /// Where the robot never found itself there is no result.
 std::optional<Error> find_unknown_pose(const Filter& filter) {
   if (filter.refusal() || filter.knows_pose()) return filter.refusal();
-  return Error{
-      "map: the robot was not found in it up to the end: too few of its landmarks were seen; three will do"};
+  return Error{"map: localisation failed: fewer than 3 landmarks of the map were observed"};
 }
 
 void finish_images(Recording& recording, const Config& config, const FrontEnd& front_end) {

@@ -250,9 +250,10 @@ RunGraph graph_of(const Recording& recording, const Config& config, const Before
 }
 
 Result<Smoothed> smooth(const Recording& recording, const Config& config, const Before& before) {
-  if (config.observe == Observe::kPixel) return Error{"smooth.run: takes range, bearing or both; not pixels"};
+  if (config.observe == Observe::kPixel)
+    return Error{"smooth.run: works with ranges and bearings, not with pixels"};
   if (recording.motions.size() != recording.trajectory.size() || recording.trajectory.empty())
-    return Error{"smooth.run: the run has kept nothing to smooth"};
+    return Error{"smooth.run: the run has no poses and observations to smooth"};
   const Duration start = thread_cpu_time();
   RunGraph run = graph_of(recording, config, before);
   SolveOptions options;

@@ -21,135 +21,150 @@ constexpr ValueLimits kVariance{0.0, 1.0};
 
 void describe(Schema& schema, PathOptions& o) {
   schema.choice("sim.path", o.shape, {"square", "l-shape", "figure-eight", "random", "loop"},
-                "closed path of one lap");
+                "shape of the closed path");
   schema.real("sim.side_m", o.side_m, {0.5, 1000.0},
-              "side of the square that the path fits into; a loop is a third as wide as long");
-  schema.integer("sim.laps", o.laps, {1, 1000}, "times round the path");
-  schema.integer("sim.waypoints", o.waypoints, {3, 1000}, "corners of a random path");
+              "side of the square that the path fits into, m; a loop is a third as wide as long");
+  schema.integer("sim.laps", o.laps, {1, 1000}, "number of laps around the path");
+  schema.integer("sim.waypoints", o.waypoints, {3, 1000}, "number of corners of a random path");
   schema.real("sim.corner_radius_m", o.corner_radius_m, {0.0, 100.0},
-              "radius of the corners; 0: the robot turns on the spot");
-  schema.real("sim.speed_mps", o.speed_mps, {0.01, 10.0}, "speed on straight lines");
-  schema.real("sim.turn_rate_max_degps", o.turn_rate_max_degps, {1.0, 720.0}, "fastest planned turn");
+              "radius of the corners of the path, m; 0: the robot turns on the spot");
+  schema.real("sim.speed_mps", o.speed_mps, {0.01, 10.0}, "speed on straight lines, m/s");
+  schema.real("sim.turn_rate_max_degps", o.turn_rate_max_degps, {1.0, 720.0},
+              "maximum turn rate, degrees per second");
 }
 
 void describe(Schema& schema, WorldOptions& o) {
-  schema.integer("sim.landmarks", o.landmarks, {0, 10000}, "landmarks in the world");
-  schema.choice("sim.landmark_spread", o.spread, {"path", "area"},
-                "landmarks stand on both sides of the path, or anywhere in a square about the origin");
-  schema.real("sim.landmark_area_m", o.area_m, {0.5, 10000.0}, "side of that square");
+  schema.integer("sim.landmarks", o.landmarks, {0, 10000}, "number of landmarks in the world");
+  schema.choice(
+      "sim.landmark_spread", o.spread, {"path", "area"},
+      "where landmarks stand: on both sides of the path, or anywhere in a square about the origin (area)");
+  schema.real("sim.landmark_area_m", o.area_m, {0.5, 10000.0}, "side of that square, m");
   schema.real("sim.landmark_min_offset_m", o.min_offset_m, {0.0, 100.0},
-              "least distance of a landmark from the path");
+              "minimum distance of a landmark from the path, m");
   schema.real("sim.landmark_max_offset_m", o.max_offset_m, {0.1, 100.0},
-              "largest distance of a landmark from the path it is placed along");
+              "maximum distance of a landmark from the path, m; for sim.landmark_spread=path");
   schema.real("sim.landmark_separation_m", o.separation_m, {0.0, 100.0},
-              "wanted distance between landmarks; halved as often as it takes to find room");
+              "minimum distance between landmarks, m; halved until all of them find room");
 }
 
 void describe(Schema& schema, WheelOptions& o) {
-  schema.choice("sim.odometry", o.odometry, {"wheels", "velocity", "pose"},
-                "how the log states the odometry");
+  schema.choice("sim.odometry", o.odometry, {"wheels", "velocity", "pose"}, "kind of odometry in the log");
   schema.real("sim.odometry_rate_hz", o.rate_hz, {1.0, 1000.0}, "odometry readings per second");
-  schema.real("sim.wheel_radius_m", o.radius_m, {0.001, 10.0}, "radius of both wheels");
-  schema.real("sim.wheel_track_m", o.track_m, {0.01, 10.0}, "distance between the wheels");
+  schema.real("sim.wheel_radius_m", o.radius_m, {0.001, 10.0}, "radius of both wheels, m");
+  schema.real("sim.wheel_track_m", o.track_m, {0.01, 10.0}, "distance between the wheels, m");
   schema.real("sim.wheel_var_m2_per_m", o.var_m2_per_m, kVariance,
-              "encoder error variance per wheel and metre rolled");
+              "variance of the encoder of each wheel, m^2 per metre rolled");
   schema.real("sim.slip_forward_var_m2_per_m", o.slip_forward_var_m2_per_m, kVariance,
-              "forward slip variance per metre driven");
+              "variance of slip along the path, m^2 per metre driven");
   schema.real("sim.slip_lateral_var_m2_per_m", o.slip_lateral_var_m2_per_m, kVariance,
-              "sideways slip variance per metre driven");
+              "variance of sideways slip, m^2 per metre driven");
   schema.real("sim.slip_turn_var_rad2_per_rad", o.slip_turn_var_rad2_per_rad, kVariance,
-              "heading slip variance per radian turned");
+              "variance of heading slip, rad^2 per radian turned");
   schema.real("sim.slip_turn_var_rad2_per_m", o.slip_turn_var_rad2_per_m, kVariance,
-              "heading slip variance per metre driven");
+              "variance of heading slip, rad^2 per metre driven");
 }
 
 void describe(Schema& schema, SensorOptions& o) {
-  schema.choice("sim.observe", o.observe, {"range-bearing", "range", "bearing"}, "what the sensor measures");
+  schema.choice("sim.observe", o.observe, {"range-bearing", "range", "bearing"},
+                "what the landmark sensor measures");
   schema.real("sim.sensor_rate_hz", o.rate_hz, {0.1, 1000.0}, "scans per second");
-  schema.real("sim.sensor_x_m", o.x_m, {-10.0, 10.0}, "sensor on the robot, forward");
-  schema.real("sim.sensor_y_m", o.y_m, {-10.0, 10.0}, "sensor on the robot, to the left");
+  schema.real("sim.sensor_x_m", o.x_m, {-10.0, 10.0},
+              "position of the sensor ahead of the robot's origin, m");
+  schema.real("sim.sensor_y_m", o.y_m, {-10.0, 10.0}, "position of the sensor left of the robot's origin, m");
   schema.real("sim.sensor_yaw_deg", o.yaw_deg, {-180.0, 180.0},
-              "sensor on the robot, turned counter-clockwise");
-  schema.real("sim.range_min_m", o.range_min_m, {0.0, 1000.0}, "nearest landmark that is seen");
-  schema.real("sim.range_max_m", o.range_max_m, {0.01, 1000.0}, "farthest landmark that is seen");
+              "yaw of the sensor on the robot, degrees, positive to the left");
+  schema.real("sim.range_min_m", o.range_min_m, {0.0, 1000.0}, "minimum range of an observation, m");
+  schema.real("sim.range_max_m", o.range_max_m, {0.01, 1000.0}, "maximum range of an observation, m");
   schema.real("sim.field_of_view_deg", o.field_of_view_deg, {0.1, 360.0},
-              "full angle, half of it on either side");
-  schema.real("sim.range_sigma_m", o.range_sigma_m, {0.0, 10.0}, "range noise");
+              "full field of view of the sensor, degrees");
+  schema.real("sim.range_sigma_m", o.range_sigma_m, {0.0, 10.0}, "standard deviation of ranges, m");
   schema.real("sim.range_sigma_ratio", o.range_sigma_ratio, {0.0, 1.0},
-              "further range noise per metre of range");
-  schema.real("sim.bearing_sigma_deg", o.bearing_sigma_deg, {0.0, 90.0}, "bearing noise");
+              "additional standard deviation of ranges per metre of range");
+  schema.real("sim.bearing_sigma_deg", o.bearing_sigma_deg, {0.0, 90.0},
+              "standard deviation of bearings, degrees");
   schema.real("sim.drop_probability", o.drop_probability, kProbability,
-              "chance that a visible landmark is not reported");
-  schema.real(
-      "sim.false_probability", o.false_probability, kProbability,
-      "chance per scan of an observation where nothing stands, half of them with the identity of a landmark");
+              "probability that a visible landmark is not observed");
+  schema.real("sim.false_probability", o.false_probability, kProbability,
+              "probability per scan of a false observation; half of them have the identity of a landmark");
   schema.real("sim.clutter_probability", o.clutter_probability, kProbability,
-              "chance per reported landmark of a further observation where nothing stands, without identity");
+              "probability per observed landmark of an additional false observation without identity");
   schema.real("sim.misread_probability", o.misread_probability, kProbability,
-              "chance that an observation bears the identity of another landmark");
-  schema.boolean("sim.identities", o.identities, "observations say which landmark they are of");
+              "probability that an observation has the identity of another landmark");
+  schema.boolean("sim.identities", o.identities, "observations have identities");
 }
 
 void describe(Schema& schema, RoomOptions& o) {
   schema.choice("sim.scene", o.scene, {"none", "room", "corridor"}, "what a camera sees; none: no images");
-  schema.real("sim.margin_m", o.margin_m, {0.8, 20.0}, "from the path to the walls");
-  schema.real("sim.room_height_m", o.height_m, {1.0, 10.0}, "from floor to ceiling");
-  schema.integer("sim.blocks", o.blocks, {0, 500}, "pieces of furniture, as far as there is room");
-  schema.integer("sim.walkers", o.walkers, {0, 50}, "people who walk about");
-  schema.real("sim.walker_speed_mps", o.walker_speed_mps, {0.0, 10.0}, "how fast they walk");
-  schema.integer("sim.markers", o.markers, {0, kMarkerPatterns}, "ArUco markers 4x4_50 on the walls");
-  schema.real("sim.marker_size_m", o.marker_size_m, {0.02, 1.0}, "side of their black squares");
+  schema.real("sim.margin_m", o.margin_m, {0.8, 20.0}, "distance from the path to the walls, m");
+  schema.real("sim.room_height_m", o.height_m, {1.0, 10.0}, "height of the room, m");
+  schema.integer("sim.blocks", o.blocks, {0, 500}, "number of pieces of furniture, as many as find room");
+  schema.integer("sim.walkers", o.walkers, {0, 50}, "number of people who walk about");
+  schema.real("sim.walker_speed_mps", o.walker_speed_mps, {0.0, 10.0}, "speed of the people, m/s");
+  schema.integer("sim.markers", o.markers, {0, kMarkerPatterns},
+                 "number of ArUco markers (dictionary 4x4_50) on the walls");
+  schema.real("sim.marker_size_m", o.marker_size_m, {0.02, 1.0}, "side of their black squares, m");
 }
 
 void describe(Schema& schema, Distortion& o) {
-  schema.real("sim.camera_k1", o.k1, {-10.0, 10.0}, "radial distortion, plumb bob as in ROS");
+  schema.real("sim.camera_k1", o.k1, {-10.0, 10.0},
+              "radial distortion, second order (plumb bob model, as in ROS)");
   schema.real("sim.camera_k2", o.k2, {-10.0, 10.0}, "radial distortion, fourth order");
-  schema.real("sim.camera_p1", o.p1, {-1.0, 1.0}, "tangential distortion");
-  schema.real("sim.camera_p2", o.p2, {-1.0, 1.0}, "tangential distortion");
+  schema.real("sim.camera_p1", o.p1, {-1.0, 1.0}, "first coefficient of tangential distortion");
+  schema.real("sim.camera_p2", o.p2, {-1.0, 1.0}, "second coefficient of tangential distortion");
   schema.real("sim.camera_k3", o.k3, {-10.0, 10.0}, "radial distortion, sixth order");
 }
 
 void describe(Schema& schema, CameraMount& o) {
-  schema.real("sim.camera_x_m", o.x_m, {-10.0, 10.0}, "camera ahead of the robot's origin");
-  schema.real("sim.camera_y_m", o.y_m, {-10.0, 10.0}, "camera left of it");
-  schema.real("sim.camera_z_m", o.z_m, {0.01, 10.0}, "camera above the ground");
+  schema.real("sim.camera_x_m", o.x_m, {-10.0, 10.0},
+              "position of the camera ahead of the robot's origin, m");
+  schema.real("sim.camera_y_m", o.y_m, {-10.0, 10.0}, "position of the camera left of the robot's origin, m");
+  schema.real("sim.camera_z_m", o.z_m, {0.01, 10.0}, "height of the camera above the ground, m");
   schema.real("sim.camera_roll_deg", o.roll_deg, {-180.0, 180.0},
-              "turn of the camera about the robot's x axis");
+              "rotation of the camera about the robot's x axis (forward), degrees");
   schema.real("sim.camera_pitch_deg", o.pitch_deg, {-90.0, 90.0},
-              "... about its y axis, positive looks down");
-  schema.real("sim.camera_yaw_deg", o.yaw_deg, {-180.0, 180.0}, "... about its z axis, positive looks left");
+              "rotation of the camera about the robot's y axis (left), degrees, positive looks down");
+  schema.real("sim.camera_yaw_deg", o.yaw_deg, {-180.0, 180.0},
+              "rotation of the camera about the robot's z axis (up), degrees, positive looks left");
 }
 
 void describe(Schema& schema, CameraSimulatorOptions& o) {
-  schema.integer("sim.image_width_px", o.width_px, {16, 4096}, "width of the images");
-  schema.integer("sim.image_height_px", o.height_px, {16, 4096}, "height of the images");
+  schema.integer("sim.image_width_px", o.width_px, {16, 4096}, "width of the images, pixels");
+  schema.integer("sim.image_height_px", o.height_px, {16, 4096}, "height of the images, pixels");
   schema.real("sim.image_rate_hz", o.rate_hz, {0.1, 1000.0}, "images per second");
   schema.real("sim.camera_field_of_view_deg", o.field_of_view_deg, {5.0, 150.0},
-              "horizontal, without the distortion");
+              "horizontal field of view of the camera, without the distortion, degrees");
   describe(schema, o.distortion);
   describe(schema, o.mount);
-  schema.real("sim.lens_blur_px", o.lens_blur_px, {0.0, 1.0}, "standard deviation of the blur of the lens");
-  schema.real("sim.exposure_ms", o.exposure_ms, {0.0, 100.0}, "open shutter: what moves is smeared");
-  schema.real("sim.noise_grey", o.noise_grey, {0.0, 100.0}, "pixel noise, of 255");
-  schema.real("sim.brightness", o.brightness, {0.0, 100.0}, "factor on the grey of all images");
-  schema.real("sim.brightness_drift_ratio", o.drift_ratio, {0.0, 1.0}, "slow change of it, to either side");
-  schema.real("sim.brightness_drift_period_s", o.drift_period_s, {0.1, 1e6}, "period of that");
-  schema.real("sim.brightness_jump_ratio", o.jump_ratio, {0.0, 1.0}, "sudden change of it, to either side");
-  schema.real("sim.brightness_jump_interval_s", o.jump_interval_s, {0.1, 1e6}, "time between those");
+  schema.real("sim.lens_blur_px", o.lens_blur_px, {0.0, 1.0}, "standard deviation of the lens blur, px");
+  schema.real("sim.exposure_ms", o.exposure_ms, {0.0, 100.0}, "exposure time, ms; more blurs what moves");
+  schema.real("sim.noise_grey", o.noise_grey, {0.0, 100.0},
+              "standard deviation of the noise of a pixel, grey levels");
+  schema.real("sim.brightness", o.brightness, {0.0, 100.0}, "factor on the grey values of all images");
+  schema.real("sim.brightness_drift_ratio", o.drift_ratio, {0.0, 1.0},
+              "amplitude of a slow change of brightness, relative");
+  schema.real("sim.brightness_drift_period_s", o.drift_period_s, {0.1, 1e6}, "period of that change, s");
+  schema.real("sim.brightness_jump_ratio", o.jump_ratio, {0.0, 1.0},
+              "maximum sudden change of brightness, up or down, relative");
+  schema.real("sim.brightness_jump_interval_s", o.jump_interval_s, {0.1, 1e6},
+              "time between sudden changes, s");
   schema.real("sim.lens_covered_from_s", o.covered_from_s, {0.0, 1e6},
-              "when something black covers the lens");
-  schema.real("sim.lens_covered_for_s", o.covered_for_s, {0.0, 1e6}, "... and how long");
-  schema.real("sim.image_drop_probability", o.drop_probability, kProbability, "chance that an image is lost");
+              "time from which the lens is covered and images are black, s");
+  schema.real("sim.lens_covered_for_s", o.covered_for_s, {0.0, 1e6},
+              "duration for which the lens is covered, s; 0: never");
+  schema.real("sim.image_drop_probability", o.drop_probability, kProbability,
+              "probability that an image is lost");
   schema.real("sim.vibration_pitch_deg", o.vibration_pitch_deg, {0.0, 10.0},
-              "standard deviation of the mount's nodding");
-  schema.real("sim.vibration_roll_deg", o.vibration_roll_deg, {0.0, 10.0}, "... of its rolling");
-  schema.real("sim.vibration_height_m", o.vibration_height_m, {0.0, 1.0}, "... of its height");
+              "standard deviation of the vibration of the camera in pitch, degrees");
+  schema.real("sim.vibration_roll_deg", o.vibration_roll_deg, {0.0, 10.0},
+              "standard deviation of the vibration of the camera in roll, degrees");
+  schema.real("sim.vibration_height_m", o.vibration_height_m, {0.0, 1.0},
+              "standard deviation of the vibration of the camera in height, m");
 }
 
 void describe(Schema& schema, TruthOptions& o) {
   schema.real("sim.truth_rate_hz", o.rate_hz, {0.0, 1000.0},
-              "true poses per second; 0: only where a corner is reached");
-  schema.boolean("sim.truth_heading", o.heading, "true poses state their heading");
+              "true poses per second; 0: only at the corners of the path");
+  schema.boolean("sim.truth_heading", o.heading, "true poses include the heading");
 }
 
 constexpr std::string_view kFolder = "sim/";
@@ -180,8 +195,8 @@ Result<void> validate_lens(const CameraSimulatorOptions& camera_simulator) {
     for (const double v : {-1.0, static_cast<double>(camera_simulator.height_px)})
       if (!camera.ray({u, v}))
         return Error{
-            "simulation: with sim.camera_k1, k2, p1, p2 and k3 no light reaches the corners of the image; "
-            "bring them nearer to 0 or lower sim.camera_field_of_view_deg"};
+            "simulation: the distortion (sim.camera_k1, k2, p1, p2 and k3) is not invertible at the corners "
+            "of the image; bring it nearer to 0 or lower sim.camera_field_of_view_deg"};
   return {};
 }
 
@@ -213,13 +228,16 @@ Result<void> validate(const SimOptions& options) {
   const auto& [path, world, wheels, sensor, room, camera_simulator, truth] = options;
   if (auto lens = validate_lens(camera_simulator); !lens) return lens;
   if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
-    return Error{"simulation: sim.scene is corridor, which leads round a sim.path of square or loop only"};
+    return Error{"simulation: sim.scene=corridor needs sim.path=square or sim.path=loop"};
   if (room.scene != SceneKind::kNone && room.markers > 0 && world.landmarks > 0)
-    return Error{"simulation: sim.markers and sim.landmarks would share numbers; set one of them to 0"};
+    return Error{
+        "simulation: sim.markers and sim.landmarks cannot be used together, since their identities would be "
+        "the same; set one of them to 0"};
   if (world.spread == Spread::kPath && world.max_offset_m < world.min_offset_m + 0.1) {
-    return Error{fmt::format(
-        "simulation: sim.landmark_max_offset_m is {}; landmarks need 0.1 m of room, so at least {}",
-        world.max_offset_m, world.min_offset_m + 0.1)};
+    return Error{
+        fmt::format("simulation: sim.landmark_max_offset_m is {}; it must be at least {}, 0.1 m above "
+                    "sim.landmark_min_offset_m",
+                    world.max_offset_m, world.min_offset_m + 0.1)};
   }
   if (sensor.range_max_m <= sensor.range_min_m) {
     return Error{
@@ -238,7 +256,7 @@ Result<SimOptions> scenario(std::string_view name) {
     if (each.name.starts_with(kFolder) && each.name.substr(kFolder.size()) == name)
       return read_options(each.yaml, fmt::format("configs/{}.yaml", each.name));
   const std::string near = nearest_name(name, scenario_names());
-  return Error{fmt::format("unknown scenario '{}'{}; there are {}, or a file.yaml", name,
+  return Error{fmt::format("unknown scenario '{}'{}; known are {}, or give a file.yaml", name,
                            near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
                            fmt::join(scenario_names(), ", "))};
 }

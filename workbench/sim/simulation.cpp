@@ -159,8 +159,8 @@ Result<void> check_size(const Path& path, const SimOptions& options) {
                                       options.truth.rate_hz + options.camera_simulator.rate_hz);
   if (events <= kEventsMax) return {};
   return Error{
-      fmt::format("simulation: the drive would take {:.0f} s and {:.2g} events, at most {:.2g} can be made; "
-                  "lower sim.laps, sim.side_m or a rate, or raise sim.speed_mps",
+      fmt::format("simulation: the drive would take {:.0f} s and {:.2g} events, but at most {:.2g} events "
+                  "are possible; lower sim.laps, sim.side_m or a rate, or raise sim.speed_mps",
                   duration_s, events, kEventsMax)};
 }
 
