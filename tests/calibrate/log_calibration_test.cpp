@@ -102,20 +102,20 @@ TEST(CalibrateMount, SaysWhatStraightMotionDoesNotShow) {
     EXPECT_TRUE(finding(result, key).found.is_unobservable) << key;
   EXPECT_FALSE(finding(result, "wheels.left_radius_m").found.is_unobservable);
   EXPECT_THAT(result.notes,
-              testing::Contains(testing::AllOf(HasSubstr("not told by this log"), HasSubstr("wheels.track_m"),
-                                               HasSubstr("sensor.x_m"))));
+              testing::Contains(testing::AllOf(HasSubstr("not observable in this log"),
+                                               HasSubstr("wheels.track_m"), HasSubstr("sensor.x_m"))));
 }
 
 TEST(CalibrateOdometry, BearingsDoNotTellTheSizeOfTheWorld) {
   const auto result = calibrate("sim:study", {"observe=bearing", "filter=fastslam"}, Subject::kOdometry);
-  EXPECT_THAT(result.notes, testing::Contains(HasSubstr("large world from a small one")));
+  EXPECT_THAT(result.notes, testing::Contains(HasSubstr("without ranges of known scale")));
   EXPECT_FALSE(finding(result, "wheels.track_m").found.is_unobservable);
 }
 
 TEST(CalibrateOdometry, SaysWhatTheLogLacks) {
   const auto blind = calibrate_log("sim:square", {{}, {"sim.landmarks=0"}, {}}, Subject::kOdometry);
   ASSERT_FALSE(blind.ok());
-  EXPECT_THAT(blind.error().message, HasSubstr("no landmark was seen"));
+  EXPECT_THAT(blind.error().message, HasSubstr("no landmark was observed"));
   const auto stopped =
       calibrate_log("sim:square", {}, Subject::kOdometry, {}, [](int, double) { return false; });
   ASSERT_FALSE(stopped.ok());

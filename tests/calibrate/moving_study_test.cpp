@@ -53,7 +53,7 @@ TEST(StudyMoving, FindsHowMuchTheOdometryErrs) {
                           "motion.turn_var_rad2_per_m=4e-4"});
   EXPECT_NEAR(found.odometry_noise[2].value, 0.5, 4.0 * found.odometry_noise[2].sigma);
   EXPECT_LT(found.odometry_noise[2].sigma, 0.05);
-  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("the odometry errs")));
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("the noise of the odometry is")));
 }
 
 TEST(StudyMoving, OfACameraFindsPixelsAndShakingThatIsMoreThanAssumed) {

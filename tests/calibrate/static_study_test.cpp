@@ -89,7 +89,7 @@ TEST(StaticStudy, OneSidedAnglesAreNotDoubled) {
   auto study = study_of(places);
   EXPECT_NEAR(to_degrees(study->limits.left_rad.value()), 20.0, 1e-9);
   EXPECT_FALSE(study->limits.right_rad);
-  EXPECT_THAT(study->notes, Contains(HasSubstr("twice one side need not be the whole")));
+  EXPECT_THAT(study->notes, Contains(HasSubstr("its other end was not measured")));
   EXPECT_THAT(to_yaml(*study), Not(HasSubstr("field_of_view")));
   places.push_back(place(random, errors, 2.0, to_radians(-35.0), 40));
   places.push_back(place(random, errors, 2.0, to_radians(-40.0), 3));
@@ -103,7 +103,7 @@ TEST(StaticStudy, ALimitNeedsAPlaceBeyondIt) {
   auto places = grid(random, errors);
   auto study = study_of(places);
   EXPECT_FALSE(study->limits.max_range_m || study->limits.min_range_m);
-  EXPECT_THAT(study->notes, Contains(HasSubstr("no place ahead was too far")));
+  EXPECT_THAT(study->notes, Contains(HasSubstr("no place ahead of the sensor was too far")));
   places.push_back(place(random, errors, 6.0, 0.0, 10));
   places.push_back(place(random, errors, 0.2, 0.0, 0));
   study = study_of(places);
@@ -116,7 +116,7 @@ TEST(StaticStudy, TwoDistancesTellNoScale) {
   const Errors errors;
   const auto study = study_of({place(random, errors, 1.0, 0.0), place(random, errors, 2.0, 0.0)});
   EXPECT_FALSE(study->range_scale);
-  EXPECT_THAT(study->notes, Contains(HasSubstr("three distances")));
+  EXPECT_THAT(study->notes, Contains(HasSubstr("three or more distances")));
   EXPECT_FALSE(study_of({place(random, errors, 1.0, 0.0), place(random, errors, 2.0, 0.0, 3)}).ok());
 }
 
@@ -151,7 +151,7 @@ TEST(StaticStudy, ReadsRecordingsNamedFromTheTable) {
   EXPECT_TRUE(write_file(home.path() / "two.csv", "log,range_m,bearing_deg\nb,2,0\n").ok());
   const auto unclear = study_places(*read_places(home.path() / "two.csv"), {});
   ASSERT_FALSE(unclear.ok());
-  EXPECT_THAT(unclear.error().message, HasSubstr("it shows 2 landmarks"));
+  EXPECT_THAT(unclear.error().message, HasSubstr("2 landmarks are observed"));
 }
 
 TEST(StaticStudy, RefusesTablesThatMakeNoSense) {
@@ -162,7 +162,7 @@ TEST(StaticStudy, RefusesTablesThatMakeNoSense) {
   };
   EXPECT_THAT(error_of("log,range_m,bearing_deg\na,-1,0\n"), HasSubstr("places.csv:2"));
   EXPECT_THAT(error_of("log,range_m,bearing_deg\na,near,0\n"), HasSubstr("places.csv:2"));
-  EXPECT_THAT(error_of("log,range_m,bearing_deg\n"), HasSubstr("names no recording"));
+  EXPECT_THAT(error_of("log,range_m,bearing_deg\n"), HasSubstr("the table has no rows"));
   EXPECT_THAT(error_of("log,range_m\na,1\n"), HasSubstr("bearing_deg"));
 }
 

@@ -92,7 +92,7 @@ TEST(Evaluate, SaysHowMuchOfTheTruthLiesOutsideTheRun) {
   const auto evaluation = evaluate(wavy_path(50, 5.0), {}, TruthTrack::from_trajectory(wavy_path(100)), {});
   EXPECT_EQ(evaluation.truth_samples, 100u);
   EXPECT_EQ(evaluation.pairs, 50u);
-  EXPECT_THAT(evaluation.notes, testing::ElementsAre(testing::HasSubstr("50 of 100 truth samples")));
+  EXPECT_THAT(evaluation.notes, testing::ElementsAre(testing::HasSubstr("50 of 100 ground-truth samples")));
 }
 
 TEST(Evaluate, ComparesTheTruthSensorNotTheRobot) {
@@ -121,7 +121,8 @@ TEST(Evaluate, EmptyInputsLeaveEverythingEmpty) {
   EXPECT_FALSE(no_overlap.path.position_rmse_m);
   EXPECT_TRUE(no_overlap.map->rmse_self_m) << "the map can still be compared by itself";
   EXPECT_FALSE(no_overlap.map->rmse_m);
-  EXPECT_THAT(no_overlap.notes, testing::ElementsAre(testing::HasSubstr("no truth sample lies inside")));
+  EXPECT_THAT(no_overlap.notes,
+              testing::ElementsAre(testing::HasSubstr("no ground-truth sample lies within")));
 }
 
 TEST(Evaluate, OneTruthSampleIsEnoughToNotCrash) {

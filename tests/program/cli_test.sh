@@ -370,7 +370,7 @@ does run "${quick_tune[@]}" --config t1/tuned.yaml -o o
 refuses 2 'logs' tune
 refuses 2 'nowhere' tune nowhere -o o
 refuses 2 'close keys: sensor.range_sigma_m' tune "${quick_tune[@]}" --keys sensor.range_sigma -o o
-refuses 2 'filter is no real number' tune "${quick_tune[@]}" --keys filter -o o
+refuses 2 'filter is not a real number' tune "${quick_tune[@]}" --keys filter -o o
 refuses 2 '--set sensor.range_sigma_ratio=0.01' tune "${quick_tune[@]}" --keys sensor.range_sigma_ratio -o o
 refuses 2 'wheel angles' tune "${quick_tune[@]}" sim:square@sim.odometry=velocity -o o
 refuses 2 'rmse' tune "${quick_tune[@]}" --by luck -o o
@@ -434,13 +434,13 @@ fi
 
 # What a log says of its robot: mistakes, a straight way, and what was found as a config.
 refuses 2 'nowhere' calibrate odometry nowhere -o c
-refuses 2 'no landmark was seen' calibrate odometry sim:square -o c --set sim.landmarks=0
+refuses 2 'no landmark was observed' calibrate odometry sim:square -o c --set sim.landmarks=0
 mkdir still
 printf 'waymark_log: 1\nname: still\n' >still/log.yaml
 printf 'stamp_s,id,range_m,bearing_rad\n0,1,2,0\n1,1,2,0\n' >still/observations.csv
 refuses 2 'no odometry' calibrate mount still -o c
 does calibrate mount sim:square --to 8 -o straight
-grep -q 'not told by this log' out.txt || fail 'calibrate says nothing of a straight way'
+grep -q 'not observable in this log' out.txt || fail 'calibrate says nothing of a straight way'
 does calibrate odometry log -o c --set wheels.track_m=0.3 --quiet
 [ ! -s out.txt ] || fail "calibrate --quiet says: $(cat out.txt)"
 for file in calibration.yaml calibration.json report.html; do

@@ -15,7 +15,7 @@ TEST(FindingsText, HasARowPerFindingAndSaysWhatIsOnlyAssumed) {
   const std::string text = findings_text(kFindings, 4, "a log");
   EXPECT_THAT(text, HasSubstr("4 runs over a log"));
   EXPECT_THAT(text, HasSubstr("0.30000      0.33000 +- 0.00100\n"));
-  EXPECT_THAT(text, HasSubstr("0.10000 +- 0.50000   (as assumed)\n"));
+  EXPECT_THAT(text, HasSubstr("0.10000 +- 0.50000   (prior: not observable)\n"));
 }
 
 TEST(FindingsJson, IsByKey) {

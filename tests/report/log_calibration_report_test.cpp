@@ -17,7 +17,7 @@ calibrate::LogCalibration sample_log() {
   c.passes = 3;
   c.settled = true;
   c.findings = {{{"wheels.track_m", 0.33, 0.002}, 0.3}, {{"sensor.x_m", 0.1, 0.4, true}, 0.1}};
-  c.notes = {"not told by this log: sensor.x_m"};
+  c.notes = {"not observable in this log: sensor.x_m"};
   for (int i = 0; i < 20; ++i) {
     const Stamp stamp = Stamp{} + duration_from_seconds(i);
     c.smoothed.push_back({stamp, {0.5 * i, 0.0, 0.0}, std::nullopt});
@@ -43,9 +43,9 @@ TEST(LogCalibrationReport, JsonHasEveryFigure) {
 
 TEST(LogCalibrationReport, TextSaysWhatIsAssumed) {
   const std::string text = to_text(sample_log());
-  EXPECT_THAT(text, HasSubstr("as assumed"));
+  EXPECT_THAT(text, HasSubstr("(prior: not observable)"));
   EXPECT_THAT(text, HasSubstr("0.33000 +- 0.00200\n"));
-  EXPECT_THAT(text, HasSubstr("note: not told"));
+  EXPECT_THAT(text, HasSubstr("note: not observable"));
 }
 
 TEST(LogCalibrationReport, SaysWhereItCannotBeWritten) {
@@ -62,7 +62,7 @@ TEST(LogCalibrationPage, ShowsWhatWasFoundAndWhatItIsWorth) {
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 1U);
   for (const char* text :
-       {"wheels.track_m", "as assumed", "calibrated", "calibrate odometry x", "sim:&lt;b&gt;"})
+       {"wheels.track_m", "(prior: not observable)", "calibrated", "calibrate odometry x", "sim:&lt;b&gt;"})
     EXPECT_THAT(page.body, HasSubstr(text));
 }
 

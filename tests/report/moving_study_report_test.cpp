@@ -24,7 +24,7 @@ calibrate::MovingStudy sample_moving() {
   }
   study.noise.outliers = 4;
   study.odometry_noise[2] = {2.0, 0.1};
-  study.notes = {"what was found still moved"};
+  study.notes = {"not converged"};
   return study;
 }
 
@@ -40,8 +40,8 @@ TEST(MovingStudyReport, JsonHasEveryFigure) {
 
 TEST(MovingStudyReport, TextHasFindingsTablesAndNotes) {
   const std::string text = to_text(sample_moving());
-  for (const char* part : {"3 runs over sim:<b>", "sensor.bearing_sigma_deg", "(as assumed)", "range, m",
-                           "bearing, deg", "note: what was found still moved"})
+  for (const char* part : {"3 runs over sim:<b>", "sensor.bearing_sigma_deg", "(prior: not observable)",
+                           "range, m", "bearing, deg", "note: not converged"})
     EXPECT_THAT(text, HasSubstr(part));
 }
 
@@ -58,7 +58,8 @@ TEST(SensorPage, ShowsWhatWasFoundAndHowErrorsLie) {
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);
-  for (const char* text : {"sensor.range_sigma_ratio", "still moved", "calibrate sensor x", "sim:&lt;b&gt;"})
+  for (const char* text :
+       {"sensor.range_sigma_ratio", "not converged", "calibrate sensor x", "sim:&lt;b&gt;"})
     EXPECT_THAT(page.body, HasSubstr(text));
 }
 

@@ -34,7 +34,7 @@ TEST(StaticStudyReport, JsonHasEveryFigure) {
 TEST(StaticStudyReport, TextSaysWhatIsNotTold) {
   const std::string text = to_text(sample_static());
   EXPECT_THAT(text, HasSubstr("range scale"));
-  EXPECT_THAT(text, HasSubstr("note: the smallest usable range is not observable"));
+  EXPECT_THAT(text, HasSubstr("note: the minimum range is not observable"));
 }
 
 #ifdef WAYMARK_CHROMIUM
@@ -44,7 +44,7 @@ TEST(StaticStudyPage, ShowsErrorsByRangeAndBearing) {
       test::open_in_browser(render_report(sample_static(), "waymark calibrate sensor --places p"));
   EXPECT_EQ(page.console, "");
   EXPECT_EQ(test::count(page.body, test::kUplot), 2U);
-  for (const char* text : {"range scale", "calibrate sensor --places p", "smallest usable range"})
+  for (const char* text : {"range scale", "calibrate sensor --places p", "minimum range"})
     EXPECT_THAT(page.body, HasSubstr(text));
 }
 

@@ -93,7 +93,7 @@ TEST(Tune, StoppedItKeepsTheBestSoFar) {
   EXPECT_TRUE(result->stopped);
   ASSERT_EQ(result->keys.size(), 2U);
   EXPECT_FALSE(result->keys[0].interval.has_value());
-  EXPECT_THAT(to_yaml(*result), HasSubstr("stopped before the end"));
+  EXPECT_THAT(to_yaml(*result), HasSubstr("stopped early"));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(TuneText, SaysWhereALogDoesNotTell) {
   key.open_high = true;
   EXPECT_EQ(interval_text(key), "above 0.1");
   key.open_low = true;
-  EXPECT_THAT(interval_text(key), HasSubstr("do not tell"));
+  EXPECT_THAT(interval_text(key), HasSubstr("not observable"));
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ std::optional<int> parse_side(std::string_view text) {
 Result<Board> make_chessboard(const BoardRequest& request) {
   if (!request.squares.empty() || !request.dictionary.empty() || request.marker_m != 0.0)
     return Error{
-        "--squares, --marker_m and --dictionary are those of a ChArUco board: give --board charuco, "
-        "or --corners alone"};
+        "--squares, --marker_m and --dictionary describe a ChArUco board: add --board charuco, or give only "
+        "--corners"};
   const bool has_scale = request.square_m > 0.0;
   Board board{.square_m = has_scale ? request.square_m : 1.0, .has_scale = has_scale};
   if (request.corners.empty()) return board;
@@ -38,7 +38,7 @@ Result<Board> make_chessboard(const BoardRequest& request) {
 
 Result<Board> make_charuco(const BoardRequest& request) {
   if (!request.corners.empty())
-    return Error{"--corners is that of a chessboard; a ChArUco board has --squares, for example 5x7"};
+    return Error{"--corners describes a chessboard; for a ChArUco board give --squares, for example 5x7"};
   const auto squares = parse_grid_size(request.squares);
   if (!squares || squares->columns < 3 || squares->rows < 3)
     return Error{
@@ -48,8 +48,8 @@ Result<Board> make_charuco(const BoardRequest& request) {
   const bool markers_fit = request.marker_m > 0.0 && request.square_m > request.marker_m;
   if (!markers_fit)
     return Error{
-        "--square_m and --marker_m: a ChArUco board needs the sides of its squares and of its "
-        "markers, which are smaller, in metres; for example --square_m 0.04 --marker_m 0.02"};
+        "--square_m and --marker_m: a ChArUco board needs the sides of its squares and, smaller, of its "
+        "markers in metres, for example --square_m 0.04 --marker_m 0.02"};
   if (request.dictionary.empty())
     return Error{"--dictionary: a ChArUco board needs the dictionary of its markers, for example 5x5_50"};
   const auto dictionary = markers::find_marker_dictionary(request.dictionary);

@@ -44,7 +44,7 @@ ImageSize settle_size(std::vector<BoardView>& views) {
   for (const std::size_t i : used(views))
     if (views[i].size != size) {
       views[i].fate = Fate::kOtherSize;
-      views[i].why = fmt::format("{} x {} pixels, most have {} x {}", views[i].size.width_px,
+      views[i].why = fmt::format("{} x {} pixels, but most images have {} x {}", views[i].size.width_px,
                                  views[i].size.height_px, size.width_px, size.height_px);
     }
   return size;
@@ -57,8 +57,8 @@ void drop_blurred(std::vector<BoardView>& views) {
   for (const std::size_t i : used(views))
     if (views[i].edge_px > std::max(kBlurred_px, kBlurred * usual_px)) {
       views[i].fate = Fate::kBlurred;
-      views[i].why =
-          fmt::format("edges are {:.1f} px wide, {:.1f} px is usual here", views[i].edge_px, usual_px);
+      views[i].why = fmt::format("blurred: edges are {:.1f} px wide, usual in this set are {:.1f} px",
+                                 views[i].edge_px, usual_px);
     }
 }
 
@@ -69,10 +69,9 @@ Error too_few(const Board& board, const std::vector<BoardView>& views) {
   std::string others;
   for (const auto& [fate, count] : counts) others += fmt::format(", {} {}", count, fate);
   const auto seen = used(views).size();
-  return {
-      fmt::format("{} of {} images show a {}{}; {} are needed at least, and 15 from different sides are "
-                  "good",
-                  seen, views.size(), describe(board), others, kMinViews)};
+  return {fmt::format(
+      "{} of {} images show a {}{}; at least {} are needed, and 15 from different sides are recommended",
+      seen, views.size(), describe(board), others, kMinViews)};
 }
 
 /// Fits, and drops the view that fits worst as long as it stands out.
@@ -90,8 +89,8 @@ Result<CameraFit> fit_without_outliers(const Board& board, std::vector<BoardView
     BoardView& view = views[places[static_cast<std::size_t>(worst - errors.begin())]];
     view.fate = Fate::kOutlier;
     view.why = fmt::format(
-        "error {:.2f} px, {:.2f} px is usual here: the board was bent or moved, or its corners "
-        "were found wrongly",
+        "error {:.2f} px, usual in this set are {:.2f} px: the board was bent or moved, or its corners were "
+        "found wrongly",
         *worst, usual_px);
   }
 }

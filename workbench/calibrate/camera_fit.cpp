@@ -135,7 +135,7 @@ Result<std::vector<Matrix3d>> homographies_of(const Board& board, std::span<cons
   std::vector<Matrix3d> homographies;
   for (const BoardCorners& view : views) {
     const auto H = plane_homography(board, view);
-    if (!H) return Error{"a view has its corners on a line"};
+    if (!H) return Error{"all corners of a view lie on a line"};
     homographies.push_back(*H);
   }
   return homographies;
@@ -253,7 +253,7 @@ Intrinsics free_terms(Lens lens) {
 
 Error left_open() {
   return {
-      "these views leave the camera open: they show the board from one direction only; take some with the "
+      "these views do not determine the camera: all show the board from one direction; take some with the "
       "board tilted by 20 to 45 degrees, to the left, to the right, up and down"};
 }
 
@@ -304,8 +304,9 @@ double rms_px(std::span<const FittedView> views) {
 Result<CameraFit> fit_camera(const Board& board, std::span<const BoardCorners> views, ImageSize size,
                              Lens lens) {
   if (views.size() < kFewestViews)
-    return Error{fmt::format("{} views of the board are too few: {} are needed at least, and 15 are good",
-                             views.size(), kMinViews)};
+    return Error{
+        fmt::format("{} views of the board are too few: at least {} are needed, and 15 are recommended",
+                    views.size(), kMinViews)};
   auto homographies = homographies_of(board, views);
   if (!homographies) return homographies.error();
   const CameraOptions camera = first_camera(*homographies, size);

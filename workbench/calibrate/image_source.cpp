@@ -92,18 +92,19 @@ Result<std::vector<fs::path>> list_images(const std::string& input) {
   if (fs::is_directory(input)) {
     auto files = images_in(input);
     if (!files.empty()) return files;
-    return Error{input +
-                 ": no images in there; expected .png, .jpg or .pgm files, a log with images, or a bag"};
+    return Error{
+        input + ": no images in this folder; expected .png, .jpg or .pgm files, a log with images, or a bag"};
   }
   if (fs::exists(input)) {
     if (is_image_name(input)) return std::vector<fs::path>{input};
-    return Error{input + " is no image (.png, .jpg or .pgm); a video, a bag or a log is given alone"};
+    return Error{input +
+                 " is not an image (.png, .jpg or .pgm); a video, a bag or a log must be the only input"};
   }
   auto files = matches(input);
   std::erase_if(files, [](const fs::path& file) { return !is_image_name(file); });
   if (files.empty())
     return Error{input +
-                 ": there is no such file, nor images of that pattern; expected images, a folder of "
+                 ": there is no such file, and no image matches this pattern; expected images, a folder of "
                  "them, a video, a bag or a log with images"};
   return files;
 }

@@ -44,10 +44,10 @@ Result<void> check(const std::string& input, const Recording& recording) {
   if (recording.error && recording.error->kind == Error::Kind::kFailed) return *recording.error;
   if (!recording.odometry && recording.error) return *recording.error;
   if (!recording.odometry)
-    return Error{input + ": no odometry: wheels, velocities, steering or odometry poses are needed"};
+    return Error{input + ": no odometry: wheel angles, velocities, steering or odometry poses are needed"};
   if (recording.observations.empty() && recording.error) return *recording.error;
   if (recording.observations.empty())
-    return Error{input + ": no landmark was seen, and only landmarks tell how the robot really moved"};
+    return Error{input + ": no landmark was observed, so the true motion of the robot is not observable"};
   return {};
 }
 
@@ -75,8 +75,8 @@ class Passes {
     if (!smoothed) return smoothed.error();
     if (smoothed->observations == 0)
       return Error{input_ +
-                   ": the filter mapped no landmark that it saw from two places; filter=fastslam can "
-                   "start from ranges or bearings alone"};
+                   ": the filter mapped no landmark from two places; filter=fastslam can start from ranges "
+                   "or bearings alone"};
     pass.smoothed = *std::move(smoothed);
     steps_ = pass.smoothed.steps;
     return pass;
@@ -123,22 +123,21 @@ double driven_m(const Trajectory& path) {
 std::vector<std::string> notes_on(const LogCalibration& result, const Pass& pass) {
   std::vector<std::string> notes;
   if (pass.recording.error)
-    notes.push_back("the log was read only in part: " + pass.recording.error->message);
+    notes.push_back("only part of the log was read: " + pass.recording.error->message);
   std::vector<std::string> unobservable;
   for (const CalibrationFinding& finding : result.findings)
     if (finding.found.is_unobservable) unobservable.push_back(finding.found.key);
   if (!unobservable.empty())
     notes.push_back(fmt::format(
-        "not told by this log, and left as assumed: {}; the robot drove {:.1f} m and turned by {:.0f} "
-        "degrees in all",
+        "not observable in this log, and kept at the prior: {}; the robot drove {:.1f} m and turned by "
+        "{:.0f} degrees in total",
         fmt::join(unobservable, ", "), driven_m(result.smoothed), to_degrees(turned_rad(result.smoothed))));
   if (pass.smoothed.calibration.sigmas[kSpeedScale] == 0.0)
     notes.emplace_back(
-        "how far the robot drives per measured metre was not estimated: without ranges of known scale "
-        "nothing "
-        "tells a large world from a small one");
+        "the scale of distances was not estimated: it is not observable without ranges of known scale");
   if (!result.settled)
-    notes.push_back(fmt::format("what was found still moved after {} runs over the log", result.passes));
+    notes.push_back(
+        fmt::format("not converged: results still changed after {} runs over the log", result.passes));
   return notes;
 }
 

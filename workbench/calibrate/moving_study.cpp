@@ -214,7 +214,7 @@ class Settling {
     const auto smoothed = smooth::smooth(run.recording, run.config, before);
     if (!smoothed) return smoothed.error();
     if (smoothed->remainders.empty())
-      return Error{runs_.input() + ": no landmark was seen often enough to tell what is noise"};
+      return Error{runs_.input() + ": no landmark was observed often enough to estimate the noise"};
     study_.noise = noise_of(smoothed->remainders);
     const auto factors = odometry_variance_of(smoothed->interval_remainders);
     for (std::size_t i = 0; i < 3; ++i)
@@ -244,20 +244,22 @@ bool is_unobservable(const MovingStudy& study, const char* key) {
 std::vector<std::string> notes_on(const MovingStudy& study) {
   std::vector<std::string> notes;
   if (study.noise.outliers > 0)
-    notes.push_back(fmt::format("{} errors beyond 4 sigma were left out", study.noise.outliers));
-  if (!study.settled) notes.push_back(fmt::format("what was found still moved after {} runs", study.runs));
-  if (is_unobservable(study, kDelayKey))
-    notes.push_back(fmt::format(
-        "{} is not observable by this log: it shows where a robot turns, stops or starts", kDelayKey));
-  if (is_unobservable(study, kShakingKey))
     notes.push_back(
-        fmt::format("{} stays as it was: less than that looks like turning of the robot", kShakingKey));
+        fmt::format("{} residuals beyond 4 sigma were left out as outliers", study.noise.outliers));
+  if (!study.settled)
+    notes.push_back(fmt::format("not converged: results still changed after {} runs", study.runs));
+  if (is_unobservable(study, kDelayKey))
+    notes.push_back(
+        fmt::format("{} is not observable in this log: the robot must turn, stop and start", kDelayKey));
+  if (is_unobservable(study, kShakingKey))
+    notes.push_back(fmt::format("{} was not changed: a smaller value cannot be told from turns of the robot",
+                                kShakingKey));
   // Sideways little is left over to tell.
   const auto& [ahead, sideways, turning] = study.odometry_noise;
   if (is_far_off(ahead) || is_far_off(turning))
     notes.push_back(
-        fmt::format("the odometry errs {:.2f} times as much as the config says ahead and {:.2f} times in "
-                    "turning: `waymark tune` finds its noise",
+        fmt::format("the noise of the odometry is {:.2f} times that of the config along the path and {:.2f} "
+                    "times in turns: `waymark tune` estimates it",
                     ahead.value, turning.value));
   return notes;
 }

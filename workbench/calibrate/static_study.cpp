@@ -66,8 +66,8 @@ Result<Shown> read_recording(OpenedInput& opened) {
   if (!markers) return markers.error();
   if (*markers && !opened.config.camera_known)
     return Error{
-        "camera.fu_px: nobody says what the camera is like; `waymark calibrate camera` finds out: put its "
-        "camera.yaml into the log, or name it by input.camera_file"};
+        "camera.fu_px: the camera is not calibrated: put the camera.yaml that `waymark calibrate camera` "
+        "writes into the log, or set input.camera_file to it"};
   Reader reader(opened.config, markers->get());
   while (true) {
     auto event = opened.source->next();
@@ -89,8 +89,9 @@ Result<LandmarkObservations> observations_of(const StaticPlace& place, const Sho
   for (const auto& [id, landmark_observations] : shown.landmarks) all.push_back(&landmark_observations);
   std::ranges::sort(all, std::greater{}, [](const LandmarkObservations* each) { return each->size(); });
   if (all.size() > 1 && kStray * all[1]->size() > all[0]->size())
-    return Error{fmt::format("{}: it shows {} landmarks: say in a column id which one stands at the place",
-                             place.log, all.size())};
+    return Error{fmt::format(
+        "{}: {} landmarks are observed; add a column id with that of the landmark at the known place",
+        place.log, all.size())};
   return all.empty() ? LandmarkObservations{} : *all[0];
 }
 
@@ -209,21 +210,20 @@ std::vector<std::string> notes_of(const StaticStudy& study) {
   std::vector<std::string> notes;
   const SensorLimits& limits = study.limits;
   if (!study.range_scale)
-    notes.emplace_back(
-        "a scale of the ranges cannot be told from an offset: measure at three distances or more");
+    notes.emplace_back("scale and offset of ranges cannot be separated: measure at three or more distances");
   if (!limits.max_range_m)
-    notes.emplace_back("the largest usable range is not observable: no place ahead was too far");
+    notes.emplace_back("the maximum range is not observable: no place ahead of the sensor was too far");
   if (!limits.min_range_m)
-    notes.emplace_back("the smallest usable range is not observable: no place ahead was too near");
+    notes.emplace_back("the minimum range is not observable: no place ahead of the sensor was too near");
   if (limits.left_rad.has_value() != limits.right_rad.has_value())
     notes.emplace_back(
-        fmt::format("the field of view ends {:.1f} deg to the {}; how far it reaches to the other side was "
-                    "not measured, and "
-                    "twice one side need not be the whole",
+        fmt::format("the field of view ends {:.1f} deg to the {}; its other end was not measured and may be "
+                    "at another angle",
                     to_degrees(std::abs(limits.left_rad ? *limits.left_rad : *limits.right_rad)),
                     limits.left_rad ? "left" : "right"));
   if (!limits.left_rad && !limits.right_rad)
-    notes.emplace_back("the field of view is not observable: no place was out of it to a side");
+    notes.emplace_back(
+        "the field of view is not observable: no place was outside of it to the left or right");
   return notes;
 }
 
@@ -241,12 +241,12 @@ Result<std::vector<StaticPlace>> read_places(const fs::path& file) {
     StaticPlace place{(file.parent_path() / fs::path(table->text(0))).string(), table->number(1),
                       to_radians(table->number(2)), std::nullopt};
     if (!table->is_empty(3)) place.id = table->integer(3);
-    if (!table->error() && !(place.range_m > 0.0)) table->fail("range_m: a distance above zero is expected");
+    if (!table->error() && !(place.range_m > 0.0)) table->fail("range_m: expected a distance above 0");
     if (table->error()) break;
     places.push_back(std::move(place));
   }
   if (table->error()) return *table->error();
-  if (places.empty()) return Error{file.string() + ": it names no recording"};
+  if (places.empty()) return Error{file.string() + ": the table has no rows"};
   return places;
 }
 
@@ -262,9 +262,8 @@ Result<StaticStudy> study_of(std::vector<PlaceStudy> places) {
   }
   if (usable.size() < 2)
     return Error{
-        fmt::format("{} of {} places were seen in half of their scans: two are needed at least, since one "
-                    "tells no bias from a "
-                    "place that was measured badly",
+        fmt::format("only {} of {} places were observed in half of their scans; at least two are needed to "
+                    "separate a bias from a wrongly measured place",
                     usable.size(), study.places.size())};
   fit_range_line(usable, study);
   const MeanError bearing = mean_of(bearing_errors);
@@ -310,7 +309,8 @@ Result<StaticStudy> study_places(const std::vector<StaticPlace>& places, const U
 }
 
 std::string to_yaml(const StaticStudy& study) {
-  std::string yaml = "# What recordings at known places say about a landmark sensor; for --config.\n";
+  std::string yaml =
+      "# Calibration of a landmark sensor from recordings at known places; use it with --config.\n";
   const auto add = [&yaml](const char* key, double value, double sigma) {
     yaml += fmt::format("{}: {:.6g}  # +- {:.2g}\n", key, value, sigma);
   };

@@ -9,7 +9,7 @@ Result<std::unique_ptr<ImageSource>> open_video(const std::filesystem::path& pat
   if (!opencv) return opencv.error();
   if (auto video = (*opencv)->open_video(path)) return video;
   return Error{path.string() +
-               " is neither an image (PNG, JPEG, PGM), nor a bag, nor a video that can be decoded"};
+               " is neither an image (PNG, JPEG, PGM) nor a bag nor a video that can be decoded"};
 }
 
 }  // namespace waymark::calibrate

@@ -48,7 +48,7 @@ void compare_with(const std::vector<BoardView>& others, BoardView& view) {
       others, [&](const BoardView& other) { return other.fate == Fate::kUsed && is_alike(view, other); });
   if (like == others.end()) return;
   view.fate = Fate::kAlike;
-  view.why = "the board lies as in " + like->name;
+  view.why = "the board is where it is in " + like->name;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ BoardView measure_view(const NamedImage& frame, const Board& board, BoardFinder&
     view.why = "no " + describe(board);
   } else if (view.corners.size() < kMinCorners || !plane_homography(board, view.corners)) {
     view.fate = Fate::kFewCorners;
-    view.why = "too few corners of the board, or all on a line";
+    view.why = "too few corners of the board, or all of them on a line";
   }
   view.edge_px = edge_width_px(pixels, board, view.corners);
   return view;

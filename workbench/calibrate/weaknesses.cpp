@@ -26,7 +26,8 @@ constexpr double kOffCentre = 0.1;  // of the image's width
 constexpr double kSquare = 0.015;
 
 constexpr const char* kTiltIt =
-    "photograph the board tilted by 20 to 45 degrees, to the left, to the right, up and down, near and far";
+    "take images of the board tilted by 20 to 45 degrees, to the left, to the right, up and down, near and "
+    "far";
 
 using Found = std::vector<Weakness>;
 
@@ -50,32 +51,31 @@ std::string name_group(const CameraCalibration& c, std::size_t group) {
 void check_one_camera(const CameraCalibration& c, Found& found) {
   if (!c.two_cameras) return;
   const auto& [first, second] = c.two_cameras->groups;
-  found.push_back({fmt::format("the views are of two cameras, or focus or zoom moved: {} | {}: "
-                               "{:.2f} px together, {:.2f} and {:.2f} px apart",
+  found.push_back({fmt::format("two cameras, or focus or zoom changed: {} | {}: error {:.2f} px fitted "
+                               "together, {:.2f} and {:.2f} px separately",
                                name_group(c, 0), name_group(c, 1), c.two_cameras->together_px, first.rms_px,
                                second.rms_px),
-                   "calibrate each group by itself (waymark calibrate camera FILES), from 15 views or more, "
-                   "with focus and zoom locked"});
+                   "calibrate each group separately (waymark calibrate camera FILES), with 15 or more views "
+                   "and locked focus and zoom"});
 }
 
 void check_count(const CameraCalibration& c, Found& found) {
   if (c.used() < kViews)
     found.push_back(
-        {fmt::format("only {} views could be used", c.used()), "take 15 to 20 from different sides"});
+        {fmt::format("only {} views could be used", c.used()), "take 15 to 20 views from different sides"});
 }
 
 void check_errors(const CameraCalibration& c, Found& found) {
   if (c.fit.rms_px > kRms_px)
     found.push_back(
         {fmt::format("reprojection errors of {:.2f} px; a good set has less than 0.5 px", c.fit.rms_px),
-         "glue the board to something flat and stiff, hold it and the camera still, lock the focus, "
-         "and give more light"});
+         "glue the board to something flat and stiff, keep it and the camera still, lock the focus, and use "
+         "more light"});
   if (c.held_out.folds > 0 && c.held_out.rms_px > kHeldOut * c.fit.rms_px)
     found.push_back(
-        {fmt::format("views that were left out fit by {:.2f} px, those of the fit by {:.2f} px: too "
-                     "few views say the same",
+        {fmt::format("overfitted: views left out of the fit have errors of {:.2f} px, those in it {:.2f} px",
                      c.held_out.rms_px, c.fit.rms_px),
-         "take more views of each kind"});
+         "take more views from every side and distance"});
 }
 
 void check_focal_length(const CameraCalibration& c, Found& found) {
@@ -83,11 +83,10 @@ void check_focal_length(const CameraCalibration& c, Found& found) {
   const CameraOptions& camera = c.fit.camera;
   const double relative = std::max(sigma[0] / camera.fu_px, sigma[1] / camera.fv_px);
   if (relative > kFocal)
-    found.push_back(
-        {fmt::format("the focal length is known to {:.1f} % only: from {:.0f} to {:.0f} px, depending "
-                     "on which views are left out",
-                     100.0 * relative, c.held_out.shortest_focal_px, c.held_out.longest_focal_px),
-         kTiltIt});
+    found.push_back({fmt::format("the focal length is uncertain by {:.1f} %: from {:.0f} to {:.0f} px, "
+                                 "depending on which views are left out",
+                                 100.0 * relative, c.held_out.shortest_focal_px, c.held_out.longest_focal_px),
+                     kTiltIt});
 }
 
 void check_symptoms(const CameraCalibration& c, Found& found) {
@@ -95,17 +94,16 @@ void check_symptoms(const CameraCalibration& c, Found& found) {
   const double off_px =
       std::hypot(camera.cu_px - 0.5 * (camera.width_px - 1), camera.cv_px - 0.5 * (camera.height_px - 1));
   if (off_px > kOffCentre * camera.width_px)
-    found.push_back({fmt::format("the principal point is {:.0f} px off the middle of the image, further than "
-                                 "lenses are mounted: the views leave it open",
+    found.push_back({fmt::format("the principal point is {:.0f} px from the middle of the image, more than "
+                                 "is plausible for a lens: the views do not determine it",
                                  off_px),
                      "turn the board and the camera by 90 degrees in some views, and fill the whole image"});
   const double ratio = std::abs(camera.fu_px / camera.fv_px - 1.0);
   if (ratio > kSquare)
     found.push_back(
-        {fmt::format("pixels would be {:.1f} % wider than high or the reverse; they are square in "
-                     "almost all cameras",
+        {fmt::format("pixels would be {:.1f} % from square, but almost all cameras have square pixels",
                      100.0 * ratio),
-         "turn the board by 90 degrees in some views, and make sure that it is flat"});
+         "rotate the board by 90 degrees in some views, and make sure that it is flat"});
 }
 
 void check_tilts(const CameraCalibration& c, Found& found) {
@@ -116,10 +114,10 @@ void check_tilts(const CameraCalibration& c, Found& found) {
   for (const FittedView& view : c.fit.views) distances.push_back(distance_m(view, c.board));
   const auto [near, far] = std::ranges::minmax(distances);
   found.push_back(
-      {fmt::format("the board is parallel to the image, to {:.0f} degrees, in all but {} views, and the "
-                   "farthest is {:.1f} times as far as the nearest: focal length and distance cannot be "
-                   "told apart",
-                   kTilt_deg, tilted, far / near),
+      {fmt::format(
+           "the board is parallel to the image, within {:.0f} degrees, in all but {} views, and the farthest "
+           "is only {:.1f} times as far as the nearest: focal length and distance cannot be separated",
+           kTilt_deg, tilted, far / near),
        kTiltIt});
 }
 
@@ -131,10 +129,10 @@ void check_coverage(const CameraCalibration& c, ImageSize size, Found& found) {
                                           : fmt::format("at the {} of the image", fmt::join(empty, ", "));
   if (c.covered < kCovered)
     found.push_back({fmt::format("corners cover {:.0f} % of the image", 100.0 * c.covered),
-                     "photograph the board " + where});
+                     "take images of the board " + where});
   if (worst_px > kProjection_px)
-    found.push_back({fmt::format("somewhere in the image the lens is known to {:.1f} px only", worst_px),
-                     "photograph the board " + where});
+    found.push_back({fmt::format("somewhere in the image the lens is uncertain by {:.1f} px", worst_px),
+                     "take images of the board " + where});
 }
 
 }  // namespace

@@ -31,9 +31,11 @@ std::optional<std::string> anchor_note(AnchorHeading heading) {
     case AnchorHeading::kTruth:
       return std::nullopt;
     case AnchorHeading::kPath:
-      return "the truth has no heading at the start: anchored by the direction of the first metre of path";
+      return "ground truth has no heading at the start: the start was aligned by the direction of the first "
+             "metre of path";
     case AnchorHeading::kNone:
-      return "the truth has no heading and no metre of path: frames taken as parallel";
+      return "ground truth has no heading and less than a metre of path: both frames were assumed to be "
+             "parallel";
   }
   return std::nullopt;
 }
@@ -44,10 +46,10 @@ std::vector<std::string> notes(const Evaluation& evaluation) {
     if (auto note = anchor_note(evaluation.anchor->heading)) notes.push_back(std::move(*note));
   }
   if (evaluation.truth_samples > 0 && evaluation.pairs == 0) {
-    notes.emplace_back("no truth sample lies inside the time of the run: no position is scored");
+    notes.emplace_back("no ground-truth sample lies within the time of the run: no position errors");
   } else if (evaluation.pairs < evaluation.truth_samples) {
     notes.push_back(std::to_string(evaluation.pairs) + " of " + std::to_string(evaluation.truth_samples) +
-                    " truth samples lie inside the run and are scored");
+                    " ground-truth samples lie within the time of the run and are used");
   }
   return notes;
 }

@@ -176,7 +176,7 @@ std::string describe_one(const MapOddity& oddity) {
 }
 
 std::string describe_exchange(const MapOddity& a, const MapOddity& b) {
-  return "landmarks " + to_string(a.id) + " and " + to_string(b.id) + " look exchanged: they are seen " +
+  return "landmarks " + to_string(a.id) + " and " + to_string(b.id) + " may be exchanged: they are seen " +
          metres(a.off_m) + " and " + metres(b.off_m) + " from their own places, and " +
          metres(a.off_there_m) + " and " + metres(b.off_there_m) + " from each other's";
 }

@@ -14,7 +14,7 @@ std::string findings_text(const std::vector<calibrate::CalibrationFinding>& find
       fmt::format("{} runs over {}\n  {:<30}{:>11}{:>13}\n", runs, input, "", "before", "found");
   for (const auto& [found, before, is_key] : findings)
     text += fmt::format("  {:<30}{:>11.5f}{:>13.5f} +- {:.5f}{}\n", found.key, before, found.value,
-                        found.sigma, found.is_unobservable ? "   (as assumed)" : "");
+                        found.sigma, found.is_unobservable ? "   (prior: not observable)" : "");
   return text;
 }
 

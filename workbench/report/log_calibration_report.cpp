@@ -21,7 +21,7 @@ using calibrate::DriftPair;
 using calibrate::LogCalibration;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kWholeLog = "the path by the whole log";
+constexpr const char* kWholeLog = "the smoothed path";
 
 Json json_of(const Drift& drift) {
   return {{"final_m", rounded(drift.final_m)},
@@ -54,9 +54,10 @@ std::string row(const char* what, const Drift& drift) {
 }
 
 std::string text_of(const DriftPair& pair, const char* reference) {
-  return fmt::format("dead reckoning against {} ({:.1f} m)\n  {:<30}{:>11}{:>13}{:>10}{:>11}{:>11}\n",
-                     reference, pair.before.path_m, "", "at the end", "heading", "of way", "RMSE",
-                     "aligned") +
+  return fmt::format(
+             "dead reckoning compared with {} ({:.1f} m)\n"
+             "  {:<30}{:>11}{:>13}{:>10}{:>11}{:>11}\n",
+             reference, pair.before.path_m, "", "at the end", "heading", "of path", "RMSE", "aligned") +
          row("as configured", pair.before) + row("calibrated", pair.after);
 }
 
@@ -97,7 +98,7 @@ Json map_of(const LogCalibration& c, Stamp start) {
 std::string to_text(const LogCalibration& c) {
   std::string text = findings_text(c.findings, c.passes, c.input);
   if (c.drift) text += text_of(*c.drift, kWholeLog);
-  if (c.drift_from_truth) text += text_of(*c.drift_from_truth, "the truth");
+  if (c.drift_from_truth) text += text_of(*c.drift_from_truth, "ground truth");
   for (const auto& note : c.notes) text += fmt::format("  note: {}\n", note);
   return text;
 }
@@ -107,7 +108,7 @@ std::string to_json(const LogCalibration& calibration) { return json_text(json_o
 std::string render_report(const LogCalibration& c, const std::string& command) {
   Json json = json_of(c);
   const Stamp start = c.smoothed.empty() ? Stamp{} : c.smoothed.front().stamp;
-  json["title"] = "What " + c.log.name + " says of its robot";
+  json["title"] = c.log.name + ": calibration of its robot";
   json["version"] = WAYMARK_VERSION;
   json["command"] = command;
   json["config_yaml"] = to_yaml(c);

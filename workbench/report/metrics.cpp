@@ -242,7 +242,7 @@ std::string to_text(const eval::Evaluation& e) {
   for (const auto& relative : e.relative) text += drift_line(relative);
   if (e.procrustes)
     text += line("Procrustes on landmarks, path", e.procrustes->position_rmse_m, "m",
-                 fmt::format("   (scale {:.4f}, landmarks {:.3f} m; misleads, see docs/evaluation.md)",
+                 fmt::format("   (scale {:.4f}, landmarks {:.3f} m; misleading, see docs/evaluation.md)",
                              e.procrustes->scale, e.procrustes->landmark_rmse_m));
   for (const auto& note : e.notes) text += fmt::format("  note: {}\n", note);
   return text;
@@ -252,7 +252,7 @@ static std::string to_text(const std::vector<smooth::CalibratedKey>& calibration
   std::string text;
   for (const auto& [key, value, sigma, is_unobservable] : calibration)
     text += fmt::format("  {:<30}{:>9.4f} +- {:.4f}{}\n", key, value, sigma,
-                        is_unobservable ? "   (as assumed: the log says nothing of it)" : "");
+                        is_unobservable ? "   (prior: not observable in this log)" : "");
   return text;
 }
 
@@ -264,7 +264,7 @@ static std::string to_text(const SmoothedFigures& s) {
     text += line("position RMSE, aligned", s.truth->path.position_rmse_aligned_m, "m");
     if (s.truth->map) text += line("landmark RMSE, with the path", s.truth->map->rmse_m, "m");
   }
-  text += line("live path was off by, aligned", s.live.path.position_rmse_aligned_m, "m");
+  text += line("live path vs smoothed, aligned", s.live.path.position_rmse_aligned_m, "m");
   return text + to_text(s.calibration);
 }
 

@@ -74,9 +74,9 @@ std::string to_json(const MovingStudy& study) {
 }
 
 std::string render_report(const MovingStudy& study, const std::string& command) {
-  Json json{{"title", "A sensor on a robot that moves"},
-            {"subtitle", fmt::format("From {} alone, in {} runs: what is left over of observations when path "
-                                     "and map are known by the whole log",
+  Json json{{"title", "Noise of a sensor on a moving robot"},
+            {"subtitle", fmt::format("From {} alone, in {} runs: residuals of the observations against path "
+                                     "and map smoothed over the whole log",
                                      study.input, study.runs)}};
   json["version"] = WAYMARK_VERSION;
   json["command"] = command;

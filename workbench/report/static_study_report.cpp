@@ -100,8 +100,8 @@ std::string to_text(const StaticStudy& study) {
   if (study.range_scale) text += line("range scale", *study.range_scale);
   text += line("range offset, m", study.range_offset_m);
   text += line("bearing offset, deg", study.bearing_offset_rad, to_degrees(1.0));
-  text += line("ranges differ from place to place by, m", study.range_scatter_m);
-  text += line("bearings differ from place to place by, deg", study.bearing_scatter_rad, to_degrees(1.0));
+  text += line("spread of range errors over places, m", study.range_scatter_m);
+  text += line("spread of bearing errors over places, deg", study.bearing_scatter_rad, to_degrees(1.0));
   for (const auto& note : study.notes) text += fmt::format("  note: {}\n", note);
   return text;
 }
@@ -129,7 +129,7 @@ std::string to_json(const StaticStudy& study) {
 }
 
 std::string render_report(const StaticStudy& study, const std::string& command) {
-  Json json{{"title", "A sensor before landmarks at known places"},
+  Json json{{"title", "Errors of a sensor, from landmarks at known places"},
             {"subtitle", fmt::format("{} recordings", study.places.size())}};
   json["version"] = WAYMARK_VERSION;
   json["command"] = command;

@@ -36,7 +36,7 @@ Result<void> add_values(std::string_view part, Axis& axis) {
     return {};
   }
   const std::int64_t count = std::int64_t{span->second} - span->first + 1;
-  if (count < 1) return bad_axis(fmt::format("{}: {} goes down; write it from low to high", axis.key, part));
+  if (count < 1) return bad_axis(fmt::format("{}: {} decreases; write it from low to high", axis.key, part));
   if (axis.values.size() + static_cast<std::size_t>(count) > kValuesMax)
     return bad_axis(fmt::format("{} has more than {} values", axis.key, kValuesMax));
   for (int value = span->first; value < span->second; ++value) axis.values.push_back(std::to_string(value));

@@ -52,7 +52,7 @@ Result<SweepJournal> SweepJournal::open(const SweepPlan& plan, const std::filesy
   }
   if (!text.empty() && !text.starts_with(title(*number)))
     return Error{
-        fmt::format("{} is of another sweep (input, settings or axes); choose another -o, or remove it",
+        fmt::format("{} is of another sweep (other input, settings or axes); choose another -o or remove it",
                     journal.path_.string())};
   const std::string head = title(*number) + csv_header(plan) + "\n";
   if (text.size() < head.size()) text = head;

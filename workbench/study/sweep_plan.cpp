@@ -103,7 +103,8 @@ Result<void> check(const SweepPlan& plan) {
     runs += count(block);
   }
   if (runs > kRunsMax)
-    return Error{fmt::format("--axis: {:.0f} runs are more than {:.0f}; give fewer values", runs, kRunsMax)};
+    return Error{fmt::format(
+        "--axis: {:.0f} runs are too many, at most {:.0f} are possible; give fewer values", runs, kRunsMax)};
   return {};
 }
 

@@ -25,14 +25,16 @@ Result<TuneKey> tune_key(const Schema& schema, const std::string& name) {
                      : fmt::format("--keys: unknown key {}; close keys: {}", name, fmt::join(close, ", "))};
   }
   const auto limits = schema.limits(name);
-  if (!limits) return Error{fmt::format("--keys: {} is no real number; only such keys can be tuned", name)};
+  if (!limits)
+    return Error{fmt::format("--keys: {} is not a real number; only real numbers can be tuned", name)};
   if (is_of_input(name))
-    return Error{fmt::format("--keys: {} decides what is in the log, not how well it is understood", name)};
+    return Error{
+        fmt::format("--keys: {} changes what is in the log; only keys of the estimation can be tuned", name)};
   const double start = std::strtod(schema.value(name).c_str(), nullptr);
   if (limits->low < 0.0) return TuneKey{name, start, limits->low, limits->high, false};
   if (start == 0.0)
     return Error{fmt::format(
-        "--keys: {0} is 0, from where no factor leads away; begin elsewhere, for example --set {0}=0.01",
+        "--keys: {0} is 0, but tuning multiplies the initial value; set another, for example --set {0}=0.01",
         name)};
   return TuneKey{name, start, std::max(limits->low, start / kMaxFactor),
                  std::min(limits->high, start * kMaxFactor), true};

@@ -95,7 +95,7 @@ Result<void> TuneLog::survey() {
   if (!recording) return recording.error();
   if (recording->error) return Error{name_ + ": " + recording->error->message};
   const auto& innovations = recording->innovations;
-  if (innovations.empty()) return Error{name_ + ": has no observations; there is nothing to tune by"};
+  if (innovations.empty()) return Error{name_ + ": no observations, which tuning needs"};
   observations_ = innovations.size();
   searches_images_ = config_.observe == Observe::kPixel && recording->counts.images > 0;
   log_field_density_ = log_field_density(config_, longest_range_m(*recording));

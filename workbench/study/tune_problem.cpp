@@ -68,18 +68,18 @@ Result<void> TuneProblem::check_logs() const {
   const TuneLog& first = logs_.front();
   for (const TuneLog& log : logs_) {
     if (log.odometry() != first.odometry())
-      return Error{fmt::format("{} has {} and {} has {}: tune them one by one", first.name(),
+      return Error{fmt::format("{} has {}, but {} has {}: tune them separately", first.name(),
                                describe(first.odometry()), log.name(), describe(log.odometry()))};
     if (log.config().observe != first.config().observe)
-      return Error{fmt::format("{} observes {} and {} {}: tune them one by one, or set observe", first.name(),
-                               value_of(first.config(), "observe"), log.name(),
+      return Error{fmt::format("{} observes {}, but {} {}: tune them separately, or set observe",
+                               first.name(), value_of(first.config(), "observe"), log.name(),
                                value_of(log.config(), "observe"))};
     if (by_ == TuneBy::kRmse && !log.has_truth())
-      return Error{fmt::format("--by rmse: {} has no ground truth; tune by likelihood", log.name())};
+      return Error{fmt::format("--by rmse: {} has no ground truth; use --by likelihood", log.name())};
     if (by_ == TuneBy::kLikelihood && log.searches_images())
       return Error{
-          fmt::format("--by likelihood: in the images of {} other corners are found with other settings, so "
-                      "likelihoods do not compare; where there is truth tune --by rmse",
+          fmt::format("--by likelihood: which corners are found in the images of {} depends on the settings, "
+                      "so likelihoods are not comparable; with ground truth use --by rmse",
                       log.name())};
   }
   return {};
@@ -96,13 +96,13 @@ Result<void> TuneProblem::choose_keys(const TuneRequest& request) {
   std::size_t observations = 0;
   for (const TuneLog& log : logs_) observations += log.observations();
   if (observations < keys_.size())
-    return Error{fmt::format("{} observations are too few to tune {} keys by; name fewer with --keys",
+    return Error{fmt::format("{} observations are too few to tune {} keys; name fewer with --keys",
                              observations, keys_.size())};
   const auto idle = find_idle(*this, request.threads);
   std::vector<TuneKey> working;
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     if (idle[k] && chosen)
-      return Error{fmt::format("--keys: {} makes no difference on {}", keys_[k].name,
+      return Error{fmt::format("--keys: {} has no effect on {}", keys_[k].name,
                                logs_.size() == 1 ? "this log" : "these logs")};
     if (idle[k])
       idle_keys_.push_back(keys_[k].name);
@@ -110,7 +110,7 @@ Result<void> TuneProblem::choose_keys(const TuneRequest& request) {
       working.push_back(keys_[k]);
   }
   keys_ = std::move(working);
-  if (keys_.empty()) return Error{"none of the keys makes a difference; name others with --keys"};
+  if (keys_.empty()) return Error{"none of the keys has an effect; name others with --keys"};
   return {};
 }
 
@@ -120,8 +120,9 @@ Result<void> TuneProblem::check_starts() const {
       const std::string value = value_of(log.config(), key.name);
       const std::string first = value_of(logs_.front().config(), key.name);
       if (value != first)
-        return Error{fmt::format("{0} is {1} in {2} and {3} in {4}: say where to begin, --set {0}=...",
-                                 key.name, first, logs_.front().name(), value, log.name())};
+        return Error{
+            fmt::format("{0} is {1} in {2}, but {3} in {4}: give a common initial value by --set {0}=...",
+                        key.name, first, logs_.front().name(), value, log.name())};
     }
   return {};
 }

@@ -23,7 +23,7 @@ std::string pair_text(const TunedLog& log, std::string_view name) {
 
 std::string interval_text(const TunedKey& key) {
   if (!key.interval) return "";
-  if (key.open_low && key.open_high) return "any: the logs do not tell";
+  if (key.open_low && key.open_high) return "any value: not observable";
   if (key.open_low) return "below " + tuned_text(key.interval->second);
   if (key.open_high) return "above " + tuned_text(key.interval->first);
   return fmt::format("{} to {}", tuned_text(key.interval->first), tuned_text(key.interval->second));
@@ -43,7 +43,7 @@ std::string to_yaml(const TuneResult& result) {
   const auto section_of = [](const TunedKey* key) { return key->name.substr(0, key->name.find('.') + 1); };
   std::ranges::stable_sort(keys, {}, section_of);
   std::string yaml = fmt::format("# Tuned over {} observations; ", result.observations) +
-                     (result.stopped ? "stopped before the end.\n" : scores_text(result));
+                     (result.stopped ? "stopped early.\n" : scores_text(result));
   std::string section;
   for (const TunedKey* key : keys) {
     if (section_of(key) != section) {
@@ -66,14 +66,14 @@ std::string to_text(const TuneResult& result) {
     text += fmt::format("{:<{}}{:>11}{:>11}  {}\n", key.name, width, tuned_text(key.before),
                         tuned_text(key.after), interval_text(key));
   if (!result.stopped) text += scores_text(result);
-  if (!result.held_out.empty()) text += "the same where it was left out of the fit:\n";
+  if (!result.held_out.empty()) text += "the same on parts of the data that were left out of the fit:\n";
   for (const HeldOutLog& part : result.held_out)
     text += fmt::format("  {:<40}{:>9.4g}{:>9.4g}\n", part.name, part.before, part.after);
   for (const TunedLog& log : result.logs)
     text += fmt::format("{}: NIS per dof {}, path RMSE anchored {} m, aligned {} m, NEES {}\n", log.name,
                         pair_text(log, "nis_per_dof"), pair_text(log, "position_rmse_m"),
                         pair_text(log, "position_rmse_aligned_m"), pair_text(log, "nees_median"));
-  for (const auto& key : result.idle_keys) text += "left out: " + key + " makes no difference here\n";
+  for (const auto& key : result.idle_keys) text += "not tuned: " + key + " has no effect here\n";
   return text;
 }
 
