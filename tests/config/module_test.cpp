@@ -29,7 +29,7 @@ TEST(Module, ThatIsMissingIsNamed) {
 TEST(Module, OfAnotherVersionIsRefused) {
   const auto functions = load_module("old-fixture", {kFixtures});
   ASSERT_FALSE(functions);
-  EXPECT_THAT(functions.error().message, HasSubstr("waymark-old-fixture.so is of Waymark 0.0.0, compiler"));
+  EXPECT_THAT(functions.error().message, HasSubstr("waymark-old-fixture.so is from Waymark 0.0.0, compiler"));
   EXPECT_THAT(functions.error().message, HasSubstr("build both together"));
 }
 

@@ -416,7 +416,7 @@ else
     [ -s left/report.html ] || fail 'calibrate wrote no page'
     spoil && cp left/camera.yaml spoilt/
     refuses 2 'camera.yaml: image_width and image_height are 640 and 480' run spoilt -o o
-    refuses 2 'they seem to show 9x6: --corners 9x6' calibrate camera "$photos/left*.jpg" --corners 9x7
+    refuses 2 'they seem to show 9x6: try --corners 9x6' calibrate camera "$photos/left*.jpg" --corners 9x7
     mkdir mixed && cp "$photos"/left0[1-9].jpg mixed && chmod u+w mixed/* && cp room/images/000020.png mixed
     head -c 9000 "$photos/left11.jpg" >mixed/left11.jpg
     does calibrate camera mixed -o mixed-out --json
