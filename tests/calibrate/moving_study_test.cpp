@@ -68,7 +68,7 @@ TEST(StudyMoving, OfACameraFindsPixelsAndShakingThatIsMoreThanAssumed) {
   EXPECT_LT(pixels->sigma, 0.01);
   EXPECT_TRUE(find(found, "camera.jitter_deg")->is_unobservable);
   EXPECT_EQ(find(found, "camera.jitter_deg")->value, 0.1);
-  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("camera.jitter_deg stays")));
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("camera.jitter_deg was not changed")));
   EXPECT_EQ(find(found, "sensor.range_sigma_m"), nullptr);
   Config config;
   Schema schema = describe(config);
