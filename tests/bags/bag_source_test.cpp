@@ -1,6 +1,7 @@
 #include "workbench/bags/bag_source.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <gmock/gmock.h>
 
@@ -83,11 +84,11 @@ std::string pose(double stamp_s, double x_m, double y_m, double theta_rad) {
 }
 
 std::string mono(double stamp_s, std::string_view frame, std::string_view encoding, int side_px,
-                 std::string_view pixels) {
+                 std::string_view pixels, std::optional<std::uint32_t> step = {}) {
   Wire wire = with_header(stamp_s, frame);
   const auto side = static_cast<std::uint32_t>(side_px);
   wire.add(side).add(side).text(encoding).add<std::uint8_t>(0);
-  wire.add(static_cast<std::uint32_t>(pixels.size() / side)).text(pixels, Wire::Text::kBytes);
+  wire.add(step.value_or(static_cast<std::uint32_t>(pixels.size() / side))).text(pixels, Wire::Text::kBytes);
   return wire.bytes();
 }
 
@@ -235,6 +236,17 @@ TEST(BagSource, PassesOverDepthImagesAndMixesTheOthers) {
   EXPECT_THAT(source->notes(), Contains(HasSubstr("/a_depth is not used for images: its encoding '32FC1'")));
   EXPECT_TRUE(source->info().only_pixels);
   EXPECT_TRUE(source->info().identities) << "what is followed in images has them";
+}
+
+TEST(BagSource, AStepOfZeroMeansRowsWithoutGaps) {
+  auto made = std::make_unique<MadeBag>();
+  const auto topic = made->topic("/raw", "sensor_msgs/Image");
+  made->add(topic, 1.0, mono(1.0, "camera", "mono8", 2, "abcd", 0));
+  made->add(topic, 2.0, mono(2.0, "camera", "mono8", 2, "abc", 0));
+  const auto source = source_of(std::move(made));
+  const auto images = test::only<Image>(test::read_all(*source).events);
+  ASSERT_EQ(images.size(), 1U);
+  EXPECT_EQ((*images[0].second.pixels)(1, 1), 'd');
 }
 
 TEST(BagSource, AMosaicOfOneGreyStaysThatGreyWhereItsColoursAgree) {

@@ -62,7 +62,7 @@ TEST(LogCalibrationPage, ShowsWhatWasFoundAndWhatItIsWorth) {
   EXPECT_EQ(page.title, "used to the end");
   EXPECT_EQ(test::count(page.body, test::kUplot), 1U);
   for (const char* text :
-       {"wheels.track_m", "(prior: not observable)", "calibrated", "calibrate odometry x", "sim:&lt;b&gt;"})
+       {"wheels.track_m", "as assumed", "calibrated", "calibrate odometry x", "sim:&lt;b&gt;"})
     EXPECT_THAT(page.body, HasSubstr(text));
 }
 

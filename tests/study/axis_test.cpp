@@ -39,7 +39,7 @@ TEST(Axis, ValuesAreThoseThatTheConfigTakes) {
 TEST(Axis, MistakesOfFormAreNamed) {
   for (const char* text : {"seed", "=1", "seed="})
     EXPECT_THAT(error_of(text), HasSubstr("not of the form")) << text;
-  EXPECT_THAT(error_of("seed=5..1"), HasSubstr("5..1 goes down"));
+  EXPECT_THAT(error_of("seed=5..1"), HasSubstr("5..1 decreases"));
   EXPECT_THAT(error_of("seed=1..2000000000"), HasSubstr("more than 100000 values"));
   EXPECT_THAT(error_of("seed=1,2,1"), HasSubstr("seed has the value 1 twice"));
 }

@@ -66,7 +66,7 @@ TEST(SweepPlan, ImpossiblePlansAreRefused) {
   plan.blocks[0].push_back({"seed", {"5"}});
   EXPECT_THAT(check(plan).error().message, HasSubstr("seed is given twice"));
   const std::vector<std::string> many(1001, "1");
-  EXPECT_THAT(check({"x", {}, {{{"a", many}, {"b", many}}}}).error().message, HasSubstr("more than 1000000"));
+  EXPECT_THAT(check({"x", {}, {{{"a", many}, {"b", many}}}}).error().message, HasSubstr("at most 1000000"));
 }
 
 TEST(SweepPlan, StudyIsAboutParticlesBesideTheEkf) {

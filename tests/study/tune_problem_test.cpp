@@ -23,7 +23,7 @@ std::string problem_of(const TuneRequest& request) {
 
 TEST(TuneProblem, RefusesLogsOfDifferentSensors) {
   EXPECT_THAT(problem_of(request({"sim:square", "sim:square@sim.odometry=velocity"})),
-              HasSubstr("sim:square has wheel angles and sim:square@sim.odometry=velocity has velocities"));
+              HasSubstr("sim:square has wheel angles, but sim:square@sim.odometry=velocity has velocities"));
   EXPECT_THAT(problem_of(request({"sim:square", "sim:square@observe=range,filter=fastslam"})),
               HasSubstr("observes range-bearing"));
   EXPECT_THAT(problem_of(request({"sim:square", "sim:square@sensor.range_sigma_m=3"})),

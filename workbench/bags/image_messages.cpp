@@ -81,7 +81,7 @@ GreyImage smooth_mosaic(const RawImage& raw) {
   return grey;
 }
 
-Result<GreyImage> to_grey(const RawImage& raw, std::string_view encoding, bool is_bigendian) {
+Result<GreyImage> to_grey(RawImage raw, std::string_view encoding, bool is_bigendian) {
   const auto found = std::ranges::find(kLayouts, encoding, &PixelLayout::encoding);
   const bool is_mosaic = encoding.starts_with("bayer_") && encoding.ends_with("8");
   if (found == kLayouts.end() && !is_mosaic)
@@ -93,6 +93,8 @@ Result<GreyImage> to_grey(const RawImage& raw, std::string_view encoding, bool i
       raw.height_px > kMaxImageSide_px)
     return Error{fmt::format("it has {} x {} pixels", raw.width_px, raw.height_px)};
   const std::size_t row = static_cast<std::size_t>(raw.width_px) * static_cast<std::size_t>(layout.bytes);
+  // Some publishers leave the step at 0; rows without gaps have only one length.
+  if (raw.step == 0 && raw.data.size() == row * static_cast<std::size_t>(raw.height_px)) raw.step = row;
   if (raw.step < row || raw.data.size() < raw.step * (static_cast<std::size_t>(raw.height_px) - 1) + row)
     return Error{fmt::format("its {} bytes in rows of {} are too few for {} x {} pixels in {}",
                              raw.data.size(), raw.step, raw.width_px, raw.height_px, encoding)};
