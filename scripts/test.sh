@@ -5,10 +5,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # The folders of the engine and the workbench: their tests also run under the sanitizers of memory and of undefined behaviour.
-# Those that start threads, or hand out work to them: under that of threads.
 all=(core models kernels association ekf fastslam smooth vision slam markers
      config logs bags datasets sim run eval study calibrate report)
-threaded=(core ekf fastslam vision markers sim study)
 
 # step TEXT: announces what comes, with the seconds since the start.
 step() { printf '\n== %s (at %s s)\n' "$1" "$SECONDS"; }
@@ -47,8 +45,6 @@ step "pages"
 npm test --prefix web
 step "address and undefined-behaviour sanitizers"
 sanitize asan "${all[@]}"
-step "thread sanitizer"
-sanitize tsan "${threaded[@]}"
 step "lint of what differs from origin/main"
 if git rev-parse --quiet --verify origin/main >/dev/null; then
   scripts/tidy.sh origin/main
@@ -57,5 +53,5 @@ else
 fi
 
 step "passed"
-sed -n 's/.*tests passed.*/& (programs under a sanitizer)/p' build/asan/ctest.log build/tsan/ctest.log
+sed -n 's/.*tests passed.*/& (programs under a sanitizer)/p' build/asan/ctest.log
 grep -h 'tests passed' build/ci/ctest.log
