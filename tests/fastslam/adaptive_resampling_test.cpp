@@ -1,7 +1,6 @@
 #include "waymark/fastslam/adaptive_resampling.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -58,15 +57,6 @@ TEST_F(AdaptiveResamplingTest, WhereNoParticleWeighsAnythingAllAreEqualAgain) {
   std::ranges::fill(belief_.particles.log_weights(), kNoWeight);
   EXPECT_FALSE(resampling_.normalise(belief_));
   EXPECT_NEAR(effective_particles(belief_.particles.weights()), 100.0, 1e-9);
-}
-
-TEST_F(AdaptiveResamplingTest, AsManyParticlesStayAsTheirSpreadWants) {
-  options_.kld_error = 0.05;
-  options_.kld_least = 30;
-  AdaptiveResampling adaptive(options_, belief_.blocks);
-  weigh(40);  // all in one bin
-  adaptive.resample(belief_);
-  EXPECT_EQ(belief_.particles.count(), 30);
 }
 
 }  // namespace

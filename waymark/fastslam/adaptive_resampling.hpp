@@ -1,17 +1,15 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "waymark/fastslam/belief.hpp"
 #include "waymark/fastslam/fast_slam_options.hpp"
-#include "waymark/fastslam/kld.hpp"
 #include "waymark/fastslam/resampling.hpp"
 
 namespace waymark::fastslam {
 
 /// Keeps the set of particles alive: weights never collapse onto a few particles, and the set is resampled
-/// when too few of them count, to as many as its spread wants.
+/// when too few of them count.
 class AdaptiveResampling {
  public:
   /// `blocks` must outlive it.
@@ -29,15 +27,9 @@ class AdaptiveResampling {
   [[nodiscard]] std::int64_t resamplings() const { return resamplings_; }
 
  private:
-  [[nodiscard]] std::size_t next_count(const Particles& particles);
-
   double temper_below_;
   double resample_below_;
-  double kld_error_;
-  int kld_least_;
-  int most_;
   Resampling resampling_;
-  OccupiedBins bins_;
   std::int64_t resamplings_ = 0;
 };
 

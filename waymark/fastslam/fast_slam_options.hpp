@@ -31,8 +31,6 @@ struct FastSlamOptions {
   double information_distance_m =
       1.0;  ///< way between two observations of a landmark that makes the second one informative
   double noise_inflation = 1.0;  ///< on the standard deviations of observations
-  double kld_error = 0.0;        ///< adapt the number of particles to keep this distance; 0: always the same
-  int kld_least = 50;            ///< particles to keep then
   int capacity = 1000;           ///< most landmarks in the map
   GateOptions gate;
   std::uint64_t seed = 1;  ///< same seed, same bits, whatever the number of threads

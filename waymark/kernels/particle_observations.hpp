@@ -50,14 +50,14 @@ void list_innovations(const LandmarkObservation& observation, const Increment& i
                       ParticleRange range);
 
 /// What the observation tells of the increments of robots that stood at `before` (Montemerlo et al. 2003):
-/// with nu, L as above, mu += K nu, P -= K L K^T, K = P Hx^T L^-1, and log_weight += evidence log N(nu; 0, L)
+/// with nu, L as above, mu += K nu, P -= K L K^T, K = P Hx^T L^-1, and log_weight += exponent log N(nu; 0, L)
 /// but for its constant. Not for landmarks of several hypotheses.
 void condition_increments(const LandmarkObservation& observation, const Increment& expected,
                           const PoseColumns& before, double exponent, const IncrementColumns& increments,
                           double* log_weight, ParticleRange range);
 
 /// The EKF update of the landmark (Montemerlo et al. 2002) seen from `sensors` (their headings the robots'),
-/// and log_weight += evidence log N(nu; 0, Z) but for its constant, Z = Hm Sigma Hm^T + R; `log_weight` may
+/// and log_weight += exponent log N(nu; 0, Z) but for its constant, Z = Hm Sigma Hm^T + R; `log_weight` may
 /// be null. Of several hypotheses each is updated and weighed by its likelihood, and by whether it lies in
 /// the field of view; the particle's likelihood is their weighted sum. Hypotheses below 1e-3 of the best are
 /// dropped.
