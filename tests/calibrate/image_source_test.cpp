@@ -49,7 +49,7 @@ TEST_F(ImageSourceTest, WhatHoldsNoImagesSaysWhatWasExpected) {
   EXPECT_THAT(names({folder + "/none"}), testing::ElementsAre(testing::HasSubstr("none: no images")));
   EXPECT_THAT(names({folder + "/x*.png"}), testing::ElementsAre(testing::HasSubstr("there is no such file")));
   EXPECT_THAT(names({folder + "/b1.png", folder + "/notes.txt"}),
-              testing::ElementsAre(testing::HasSubstr("notes.txt is no image")));
+              testing::ElementsAre(testing::HasSubstr("notes.txt is not an image")));
   EXPECT_FALSE(open_images({folder + "/notes.txt"}));
 }
 

@@ -132,7 +132,7 @@ TEST(Describe, SaysAnExchangeOnce) {
   RandomStream random = random_stream(19);
   const auto oddities = compare_maps(noisy_map(kMrclam1, random, 0.02), exchanged(kMrclam1, 11, 17));
   EXPECT_THAT(describe(oddities),
-              testing::ElementsAre(testing::HasSubstr("landmarks 11 and 17 look exchanged")));
+              testing::ElementsAre(testing::HasSubstr("landmarks 11 and 17 may be exchanged")));
 }
 
 /// Observations of all landmarks from a robot that drives about, with one in ten grossly wrong.
