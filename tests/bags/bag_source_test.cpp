@@ -153,7 +153,7 @@ TEST(BagSource, UsesTheTimeOfRecordingWhereTheHeaderHasNone) {
   const auto source = source_of(std::move(made));
   EXPECT_EQ(test::read_all(*source).events.at(0).stamp, stamp_from_seconds(100.0));
   EXPECT_THAT(source->notes(),
-              Contains(HasSubstr("without a stamp in the header, at the time of recording: 1")));
+              Contains(HasSubstr("without a stamp in the header, placed at their time of recording: 1")));
 }
 
 TEST(BagSource, SkipsWhatComesTooLate) {
@@ -163,7 +163,8 @@ TEST(BagSource, SkipsWhatComesTooLate) {
   made->add(speed, 10.0, twist(101.5, 99.0));
   const auto source = source_of(std::move(made));
   EXPECT_THAT(speeds(*source), Not(Contains(99.0)));
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("come more than 5 s after others of later stamps: 1")));
+  EXPECT_THAT(source->notes(),
+              Contains(HasSubstr("are recorded more than 5 s after messages with later stamps: 1")));
 }
 
 TEST(BagSource, SkipsMessagesThatDoNotFitOrAreNotFinite) {
@@ -176,9 +177,10 @@ TEST(BagSource, SkipsMessagesThatDoNotFitOrAreNotFinite) {
   made->add(speed, 5.0, twist(5.0, 5.0));
   const auto source = source_of(std::move(made));
   EXPECT_THAT(speeds(*source), testing::ElementsAre(1.0, 5.0));
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("/speed skipped that do not fit their definition: 2")));
+  EXPECT_THAT(source->notes(),
+              Contains(HasSubstr("/speed skipped that do not match their message definition: 2")));
   EXPECT_THAT(source->notes(), Contains(HasSubstr("/speed skipped that cannot be used: 1")));
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("/speed: its 30 bytes end, or make no sense, at byte")));
+  EXPECT_THAT(source->notes(), Contains(HasSubstr("/speed: its 30 bytes end or are invalid at byte")));
 }
 
 TEST(BagSource, ChoosesTheOdometryThatSaysMostAndNamesTheOthers) {
@@ -191,8 +193,9 @@ TEST(BagSource, ChoosesTheOdometryThatSaysMostAndNamesTheOthers) {
   for (int i = 0; i < 3; ++i) made->add(many, i, twist(1.0 + i, 7.0));
   const auto source = source_of(std::move(made));
   EXPECT_THAT(speeds(*source), testing::ElementsAre(7.0, 7.0, 7.0));
-  EXPECT_THAT(source->notes(),
-              Contains(HasSubstr("odometry: /b is used, not /a, /goal; input.odometry_topic chooses")));
+  EXPECT_THAT(
+      source->notes(),
+      Contains(HasSubstr("odometry: /b is used, not /a, /goal; set input.odometry_topic to change that")));
 }
 
 TEST(BagSource, FindsTheWheelsAmongTheJoints) {
@@ -233,7 +236,8 @@ TEST(BagSource, PassesOverDepthImagesAndMixesTheOthers) {
   const auto images = test::only<Image>(test::read_all(*source).events);
   ASSERT_EQ(images.size(), 1U);
   EXPECT_EQ((*images[0].second.pixels)(0, 0), (299 * 10 + 587 * 50 + 114 * 100 + 500) / 1000);
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("/a_depth is not used for images: its encoding '32FC1'")));
+  EXPECT_THAT(source->notes(),
+              Contains(HasSubstr("/a_depth is not used for images: its image encoding '32FC1'")));
   EXPECT_TRUE(source->info().only_pixels);
   EXPECT_TRUE(source->info().identities) << "what is followed in images has them";
 }

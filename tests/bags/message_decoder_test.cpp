@@ -90,7 +90,7 @@ TEST(MessageDecoder, RefusesEveryMessageThatIsTooShortOrTooLong) {
     for (std::size_t size = 0; size < whole.size(); ++size)
       EXPECT_FALSE(decoder->decode(std::string_view(whole).substr(0, size)).ok()) << size;
     EXPECT_THAT(decoder->decode(whole + std::string(8, '\0')).error().message,
-                HasSubstr("by its definition only"));
+                HasSubstr("by its definition"));
   }
 }
 
@@ -98,7 +98,7 @@ TEST(MessageDecoder, SaysWhichFieldIsMissing) {
   const auto missing = MessageDecoder::make(topic(Encoding::kCdr), {{"parts.weight"}, {}});
   ASSERT_FALSE(missing.ok());
   EXPECT_THAT(missing.error().message,
-              HasSubstr("/demo: the definition of demo/Whole that the bag holds has no number "
+              HasSubstr("/demo: the definition of demo/Whole in the bag has no number "
                         "parts.weight"));
   EXPECT_FALSE(MessageDecoder::make(topic(Encoding::kCdr), {{"label"}, {}}).ok()) << "a text is no number";
   EXPECT_FALSE(MessageDecoder::make(topic(Encoding::kCdr), {{"parts"}, {}}).ok()) << "nor is a message";
@@ -109,8 +109,8 @@ TEST(MessageDecoder, RefusesDefinitionsThatCannotBe) {
     const auto fields = parse_definition(topic(Encoding::kRos1, definition));
     return fields ? std::string() : fields.error().message;
   };
-  EXPECT_THAT(error("Other other\n"), HasSubstr("lacks that of demo/Other"));
-  EXPECT_THAT(error("Loop loop\n====\n========\nMSG: demo/Loop\nLoop loop\n"), HasSubstr("in a circle"));
+  EXPECT_THAT(error("Other other\n"), HasSubstr("does not include that of demo/Other"));
+  EXPECT_THAT(error("Loop loop\n====\n========\nMSG: demo/Loop\nLoop loop\n"), HasSubstr("contains itself"));
   EXPECT_THAT(error("int32[x] numbers\n"), HasSubstr("cannot be read"));
   EXPECT_THAT(error("int32\n"), HasSubstr("cannot be read"));
   std::string wide = "A a\n";

@@ -84,8 +84,9 @@ TEST(RecordedBags, RawImagesOfRos1AndRos2) {
     WAYMARK_REQUIRE_DATA(bag);
     const auto source = open_images(bag, "");
     ASSERT_NE(source, nullptr);
-    EXPECT_THAT(source->notes(),
-                Contains(HasSubstr("no sensor_msgs/CameraInfo describes it: `waymark calibrate")));
+    EXPECT_THAT(
+        source->notes(),
+        Contains(HasSubstr("the camera is not calibrated (no sensor_msgs/CameraInfo): `waymark calibrate")));
     const auto images = test::only<Image>(test::read_all(*source).events);
     ASSERT_EQ(images.size(), 3U);
     EXPECT_EQ(to_string(images[1].first), "1700000000.100000000");
@@ -142,7 +143,7 @@ TEST(RecordedBags, MarkersThatADetectorFound) {
   const auto& [range_m, bearing_rad] = std::get<RangeBearing>(scans[0].second[0].value);
   EXPECT_NEAR(range_m, std::hypot(1.673025127085304, 2.89584207865679), 1e-12);
   EXPECT_NEAR(bearing_rad, std::atan2(1.673025127085304, 2.89584207865679), 1e-12);
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("no tf_static says where the camera raspicam sits")));
+  EXPECT_THAT(source->notes(), Contains(HasSubstr("no tf_static has the position of the camera raspicam")));
 }
 
 TEST(RecordedBags, ACameraThatLooksUpSeesTheCeilingWhereItIs) {
@@ -163,7 +164,7 @@ TEST(RecordedBags, ATopicThatIsNotThereIsRefusedWithThoseThatAre) {
   InputOptions options;
   options.bag.odometry_topic = "/odom";
   EXPECT_THAT(open_source(test::data_path("odom-bags/husky_test1.bag"), options).error().message,
-              HasSubstr("input.odometry_topic: the bag has no topic /odom with odometry; it can be "
+              HasSubstr("input.odometry_topic: the bag has no topic /odom with odometry; possible are "
                         "/husky_velocity_controller/odom"));
   options.bag.odometry_topic = "none";
   const auto source = open_recorded("odom-bags/husky_test1.bag", options);

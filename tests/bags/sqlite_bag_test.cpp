@@ -101,7 +101,7 @@ TEST(SqliteBag, ViewsInPlaceOfTablesAreRefusedAndNotRun) {
       refusal(std::string(kTopics) +
               "CREATE VIEW messages AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) "
               "SELECT x AS id, 1 AS topic_id, x AS timestamp, x'00' AS data FROM c;"),
-      HasSubstr("bag.db3: no ROS 2 bag, or a damaged one: messages is a view, not a table"));
+      HasSubstr("bag.db3: not a ROS 2 bag, or a damaged one: messages is a view, not a table"));
   EXPECT_THAT(
       refusal(std::string(kMessages) + "CREATE VIEW topics AS SELECT 1 AS id, randomblob(9) AS name;"),
       HasSubstr("topics is a view, not a table"));
@@ -120,7 +120,7 @@ TEST(SqliteBag, ColumnsThatAreComputedAreRefused) {
   EXPECT_THAT(refusal(std::string(kTopics) +
                       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, "
                       "data AS (hex(zeroblob(30000000))));"),
-              HasSubstr("table messages has columns that are computed"));
+              HasSubstr("table messages has computed columns"));
 }
 
 TEST(SqliteBag, VirtualTablesAreRefused) {
@@ -186,7 +186,7 @@ TEST(SqliteBag, AJournalBesideItIsNoted) {
   folder.write("bag.db3-journal", "half of a change");
   const Content content = content_of(path);
   EXPECT_EQ(content.messages, 200);
-  EXPECT_THAT(content.notes, Contains(HasSubstr("a -journal lies beside it")));
+  EXPECT_THAT(content.notes, Contains(HasSubstr("there is a -journal beside it")));
 }
 
 TEST(SqliteBag, BytesOfAPathThatMeanSomethingInAUriDoNotHere) {
@@ -235,7 +235,7 @@ TEST(SqliteBag, PagesThatLeadToOneAnotherDoNotGoOnForEver) {
   }
   folder.write("bag.db3", bytes);
   const Content content = content_of(path);
-  EXPECT_THAT(content.notes, Contains(HasSubstr("its pages lead to more rows than it can hold")));
+  EXPECT_THAT(content.notes, Contains(HasSubstr("its pages refer to more rows than it can hold")));
   EXPECT_LT(content.messages, 1'000'000);
 }
 

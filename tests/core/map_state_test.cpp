@@ -30,7 +30,7 @@ TEST(MapState, SaysWhyItDoesNotFit) {
     return fits ? std::string("it fits") : fits.error().message;
   };
   EXPECT_THAT(why(two_landmarks(), 3, 100), HasSubstr("dimension 2, not 3"));
-  EXPECT_THAT(why(two_landmarks(), 2, 1), HasSubstr("room for, 1"));
+  EXPECT_THAT(why(two_landmarks(), 2, 1), HasSubstr("capacity of the filter, 1"));
   MapState map = two_landmarks();
   map.covariance.conservativeResize(7, 6);
   EXPECT_THAT(why(map, 2, 100), HasSubstr("a covariance of 7 rows"));

@@ -68,7 +68,7 @@ TEST(MatFile, FileThatIsNotThereOrNoMatlabFileIsAnError) {
   const TempFolder folder;
   EXPECT_THAT(MatFile::open(folder.path() / "x.mat").error().message, HasSubstr("x.mat"));
   EXPECT_THAT(MatFile::open(folder.write("x.mat", "nothing")).error().message,
-              HasSubstr("is no MATLAB file that can be read"));
+              HasSubstr("is not a MATLAB file that can be read"));
 }
 
 // Some bits between the parts of compressed data mean nothing.

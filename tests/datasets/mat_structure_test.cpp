@@ -36,11 +36,11 @@ TEST(MatStructure, NumbersMayBeKeptInSmallerTypes) {
 
 TEST(MatStructure, OtherFilesAreNamedAsWhatTheyAre) {
   EXPECT_THAT(structure_error(""), HasSubstr("no header of a level 5 file"));
-  EXPECT_THAT(structure_error("stamp_s,id\n"), StartsWith("x.mat: is no MATLAB file that can be read"));
+  EXPECT_THAT(structure_error("stamp_s,id\n"), StartsWith("x.mat: is not a MATLAB file that can be read"));
   EXPECT_THAT(structure_error("MATLAB 7.3 MAT-file"), HasSubstr("level 7.3; save it as level 5 (-v7)"));
   std::string big_endian = test::mat_header();
   big_endian.replace(124, 4, "\x01\x00MI", 4);
-  EXPECT_THAT(structure_error(big_endian), HasSubstr("another version or byte order"));
+  EXPECT_THAT(structure_error(big_endian), HasSubstr("unsupported version or byte order"));
 }
 
 TEST(MatStructure, DamageIsNamedWithItsPlace) {
@@ -51,9 +51,9 @@ TEST(MatStructure, DamageIsNamedWithItsPlace) {
       structure_error(test::mat_header() + variable + packed),
       HasSubstr("at byte " + std::to_string(128 + variable.size()) + ", compressed data that is damaged"));
   EXPECT_THAT(structure_error(test::mat_header() + variable.substr(0, variable.size() - 8)),
-              HasSubstr("at byte 128, an element that ends behind the end of the file"));
+              HasSubstr("at byte 128, an element that ends after the end of the file"));
   EXPECT_THAT(structure_error(test::mat_header() + test::mat_compressed("nothing of the kind")),
-              HasSubstr("compressed data that is no variable"));
+              HasSubstr("compressed data that is not a variable"));
   EXPECT_THAT(structure_error(test::mat_header() + test::mat_element(7, "abcd")),
               HasSubstr("an element of an unknown type"));
 }
@@ -63,7 +63,7 @@ TEST(MatStructure, SizesMustAgreeWithTheContent) {
   constexpr std::size_t kRows = 8 + 16 + 8;
   variable[kRows] = 4;
   EXPECT_THAT(structure_error(test::mat_header() + variable),
-              HasSubstr("variable GT with another number of values than it claims"));
+              HasSubstr("variable GT whose number of values is not the one stated"));
   variable.replace(kRows, 8, "\xff\xff\xff\xff\xff\xff\xff\xff", 8);
   EXPECT_THAT(structure_error(test::mat_header() + variable), HasSubstr("variable GT"));
 }
@@ -76,16 +76,16 @@ TEST(MatStructure, CellsArePlainMatricesWithoutNames) {
   std::string fewer = cells;
   fewer[kColumns] = 1;
   EXPECT_THAT(structure_error(test::mat_header() + fewer),
-              HasSubstr("variable zt with another number of cells than it claims"));
+              HasSubstr("variable zt whose number of cells is not the one stated"));
   constexpr std::size_t kFirstCell = 8 + 16 + 16 + 16;
   std::string broken = cells;
   broken[kFirstCell + 8 + 8] = 4;  // class char
   EXPECT_THAT(structure_error(test::mat_header() + broken),
-              HasSubstr("variable zt with a cell which is no plain matrix"));
+              HasSubstr("variable zt with a cell which is not a matrix of real numbers"));
   broken = cells;
   broken[kFirstCell] = 9;
   EXPECT_THAT(structure_error(test::mat_header() + broken),
-              HasSubstr("variable zt with a cell that is no matrix"));
+              HasSubstr("variable zt with a cell that is not a matrix"));
 }
 
 TEST(MatStructure, TextAndComplexNumbersAreRefused) {
@@ -93,10 +93,10 @@ TEST(MatStructure, TextAndComplexNumbersAreRefused) {
   std::string variable = test::mat_variable("names", kValues);
   variable[kFlags] = 4;  // class char
   EXPECT_THAT(structure_error(test::mat_header() + variable),
-              HasSubstr("variable names, which is no plain matrix of numbers"));
+              HasSubstr("variable names, which is not a matrix of real numbers"));
   variable[kFlags] = 6;
   variable[kFlags + 1] = 8;  // complex
-  EXPECT_THAT(structure_error(test::mat_header() + variable), HasSubstr("no plain matrix of numbers"));
+  EXPECT_THAT(structure_error(test::mat_header() + variable), HasSubstr("not a matrix of real numbers"));
 }
 
 TEST(MatStructure, EveryTruncationIsFound) {

@@ -49,7 +49,7 @@ TEST(Mrclam, MapsBarcodesToLandmarksAndSkipsRobotsAndStrangers) {
   EXPECT_EQ(std::get<RangeBearing>(observations[0].second[0].value).range_m, 2.5);
   EXPECT_EQ(std::get<RangeBearing>(observations[0].second[0].value).bearing_rad, 0.5);
   EXPECT_THAT(log->notes(), ElementsAre("observations skipped of other robots: 1",
-                                        "observations skipped of barcode 99, which is in no table: 1"));
+                                        "observations of barcode 99 skipped, which is in no table: 1"));
 }
 
 TEST(Mrclam, ReadsVelocityAndTruthInTheOrderOfTime) {
@@ -84,7 +84,7 @@ TEST(Mrclam, RobotThatIsNotThereNamesThoseThatAre) {
   const TempFolder folder;
   write_dataset(folder);
   EXPECT_THAT(open_mrclam(folder.path(), {.robot = 2}).error().message,
-              HasSubstr("there is no robot 2; input.robot can be 1, 3"));
+              HasSubstr("no robot 2; input.robot can be 1, 3"));
 }
 
 TEST(Mrclam, OdometryThatGoesBackInTimeIsSkippedAndCounted) {
@@ -94,7 +94,7 @@ TEST(Mrclam, OdometryThatGoesBackInTimeIsSkippedAndCounted) {
   const auto log = open_robot(folder);
   EXPECT_EQ(only<Velocity>(test::read_all(*log).events).size(), 2U);
   EXPECT_THAT(log->notes(), Contains("rows of Robot1_Odometry.dat skipped that go back in time: 1"));
-  EXPECT_THAT(log->notes(), Contains("rows of Robot1_Odometry.dat that repeat the stamp before them: 1"));
+  EXPECT_THAT(log->notes(), Contains("rows of Robot1_Odometry.dat with the same stamp as the row before: 1"));
 }
 
 /// A byte-order mark, a header and whole seconds, as in the spreadsheet export of dataset 1.
@@ -112,9 +112,8 @@ TEST(Mrclam, RoundedTruthIsSpreadOverItsSeconds) {
   EXPECT_EQ(truth[0].second.theta_rad, -3.0);
   EXPECT_EQ(truth[1].first, parse_stamp("9"));
   EXPECT_EQ(truth[1].second.x_m, 2.0);
-  EXPECT_THAT(
-      log->notes(),
-      Contains(HasSubstr("Robot3_Groundtruth_rounded.csv: stamps rounded to whole seconds were rebuilt")));
+  EXPECT_THAT(log->notes(),
+              Contains(HasSubstr("Robot3_Groundtruth_rounded.csv: stamps are rounded to whole seconds")));
 }
 
 TEST(Mrclam, PublishedTruthWinsOverRounded) {
@@ -161,7 +160,7 @@ TEST(Mrclam, BadFilesAreErrorsWithFileAndLine) {
   EXPECT_THAT(test::read_all(*open_robot(folder)).error,
               HasSubstr("Robot1_Measurement.dat:2: expected 4 columns"));
   folder.write("Barcodes.dat", "6 63\n7 63\n");
-  EXPECT_THAT(open_mrclam(folder.path()).error().message, HasSubstr("Barcodes.dat:2: barcode 63 is already"));
+  EXPECT_THAT(open_mrclam(folder.path()).error().message, HasSubstr("Barcodes.dat:2: barcode 63 already"));
   std::filesystem::remove(folder.path() / "Robot3_Measurement.dat");
   folder.write("Barcodes.dat", "6 63\n");
   EXPECT_THAT(open_mrclam(folder.path(), {.robot = 3}).error().message,
@@ -206,13 +205,13 @@ TEST_P(MrclamRecording, HoldsTheKnownCounts) {
 }
 
 std::string unknown_barcode(int barcode, int count) {
-  return "observations skipped of barcode " + std::to_string(barcode) +
-         ", which is in no table: " + std::to_string(count);
+  return "observations of barcode " + std::to_string(barcode) +
+         " skipped, which is in no table: " + std::to_string(count);
 }
 
 std::string repeated(int robot, int count) {
   return "rows of Robot" + std::to_string(robot) +
-         "_Odometry.dat that repeat the stamp before them: " + std::to_string(count);
+         "_Odometry.dat with the same stamp as the row before: " + std::to_string(count);
 }
 
 std::string first_row_late(int robot) {

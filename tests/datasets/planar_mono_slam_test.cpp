@@ -145,13 +145,13 @@ TEST(PlanarMonoSlam, BadLinesAreNamed) {
   EXPECT_THAT(error_with("world.dat", "7 1 2\n"), HasSubstr("world.dat:1: expected 4 columns"));
   const std::string points = kPoints;
   EXPECT_THAT(error_with("meas-00000.dat", points + "point 2 11 5"),
-              HasSubstr(":6: expected point INDEX WORLD_ID COL ROW, found 3 numbers (the file breaks off"));
+              HasSubstr(":6: expected point INDEX WORLD_ID COL ROW, found 3 numbers (the file is cut off"));
   EXPECT_THAT(error_with("meas-00000.dat", points + "point 2 11 nan 4\n"), HasSubstr(":6: 'nan' is not"));
   EXPECT_THAT(error_with("meas-00000.dat", points + "point 2 -1 3 4\n"), HasSubstr(":6: WORLD_ID must be"));
   EXPECT_THAT(error_with("meas-00000.dat", points + "pixel 2 1 3 4\n"), HasSubstr(":6: expected point"));
   EXPECT_THAT(error_with("meas-00000.dat", ""), HasSubstr("meas-00000.dat:0: expected a line `seq:`"));
   EXPECT_THAT(error_with("meas-00000.dat", replaced(points, "seq: 0", "seq: 5")),
-              HasSubstr(":1: is of step 5"));
+              HasSubstr(":1: belongs to step 5"));
   EXPECT_THAT(error_with("meas-00000.dat", replaced(points, "0.5 0 0", "0.5 0")),
               HasSubstr(":3: expected x, y"));
 }

@@ -62,7 +62,7 @@ TEST(Plaza, RangesKeepTheirBeaconAndComeInTheOrderOfTime) {
   EXPECT_EQ(ranges[0].first, parse_stamp("10.25"));
   EXPECT_EQ(ranges[0].second[0].id, (LandmarkId{LandmarkId::Family::kMarker, 0}));
   EXPECT_EQ(std::get<Range>(ranges[0].second[0].value).range_m, 7.5);
-  EXPECT_THAT(source->notes(), Contains("ranges put in the order of time: 1"));
+  EXPECT_THAT(source->notes(), Contains("ranges sorted by time: 1"));
   EXPECT_THAT(source->info().settings, Contains(std::pair<std::string, std::string>("observe", "range")));
   ASSERT_EQ(source->info().landmarks.size(), 2U);
   EXPECT_EQ(source->info().landmarks[1].id.number, 5);
@@ -112,8 +112,8 @@ TEST(Plaza, ImpossibleRowsAreNamed) {
   };
   EXPECT_THAT(error_of(Eigen::MatrixXd{{10.0, 2.0, 5.0, -1.0}}),
               HasSubstr("x.mat: TD: row 1: a range cannot be negative"));
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{1e10, 2.0, 5.0, 1.0}}), HasSubstr("TD: row 1: is no time"));
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{10.0, 2.0, 1e9, 1.0}}), HasSubstr("is no number of a beacon"));
+  EXPECT_THAT(error_of(Eigen::MatrixXd{{1e10, 2.0, 5.0, 1.0}}), HasSubstr("TD: row 1: is not a time"));
+  EXPECT_THAT(error_of(Eigen::MatrixXd{{10.0, 2.0, 1e9, 1.0}}), HasSubstr("is not the number of a beacon"));
   EXPECT_THAT(error_of(Eigen::MatrixXd::Zero(2, 3)), HasSubstr("variable TD has 3 columns; expected 4"));
 }
 

@@ -48,7 +48,7 @@ TEST(Survey, RefusesWhatIsNoSurvey) {
     EXPECT_THAT(survey.error().message, testing::HasSubstr(words));
   };
   expect_error("7,1,2,-0.01,0,0.04\n", "survey.csv:2: the covariance is not positive");
-  expect_error("7,1,2,1,0,1\n7,1,2,1,0,1\n", "survey.csv:3: this id stands here twice");
+  expect_error("7,1,2,1,0,1\n7,1,2,1,0,1\n", "survey.csv:3: this id is listed twice");
   expect_error("-1,1,2,1,0,1\n", "survey.csv:2");
 }
 

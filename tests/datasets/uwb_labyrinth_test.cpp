@@ -46,12 +46,12 @@ TEST(UwbLabyrinth, BadLinesAreNamed) {
     folder.write("Indoor_UWB_Input.txt", line);
     return open_uwb_labyrinth(folder.path()).error().message;
   };
-  EXPECT_THAT(error_of("range3 1 2\n"), HasSubstr("Indoor_UWB_Input.txt:1: 'range3' is no known kind"));
+  EXPECT_THAT(error_of("range3 1 2\n"), HasSubstr("Indoor_UWB_Input.txt:1: 'range3' is not a known kind"));
   EXPECT_THAT(error_of("range2 1 2 3 4\n"), HasSubstr(":1: expected 7 numbers after range2"));
-  EXPECT_THAT(error_of("range2 x\n"), HasSubstr("'x' is no time in seconds"));
+  EXPECT_THAT(error_of("range2 x\n"), HasSubstr("'x' is not a time in seconds"));
   EXPECT_THAT(error_of("range2 1 two 0.01 0 0 107 0\n"), HasSubstr("'two' is not a number"));
   EXPECT_THAT(error_of("range2 1 -2 0.01 0 0 107 0\n"), HasSubstr("a range cannot be negative"));
-  EXPECT_THAT(error_of("range2 1 2 0.01 0 0 1e9 0\n"), HasSubstr("no number of an anchor"));
+  EXPECT_THAT(error_of("range2 1 2 0.01 0 0 1e9 0\n"), HasSubstr("not the number of an anchor"));
 }
 
 TEST(UwbLabyrinth, RecordingHoldsTheKnownCounts) {

@@ -48,7 +48,7 @@ TEST(ReadStamps, NamesWhatIsNoTime) {
   EXPECT_THAT(read_stamps(with_times(folder, Eigen::MatrixXd{{2.0, 1.0}}), "t", 1.0).error().message,
               HasSubstr("x.mat: variable t: value 2 goes back in time"));
   EXPECT_THAT(read_stamps(with_times(folder, Eigen::MatrixXd{{1e12}}), "t", 1.0).error().message,
-              HasSubstr("value 1 is no time"));
+              HasSubstr("value 1 is not a time"));
 }
 
 TEST(ReadFixes, NeedsAsManyPlacesAsTimes) {

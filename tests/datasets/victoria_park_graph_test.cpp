@@ -65,12 +65,12 @@ TEST(VictoriaParkGraph, BadLinesAreNamed) {
   const auto error_of = [&folder](const std::string& line) {
     return open_victoria_park_graph(folder.write("victoria_park.txt", line)).error().message;
   };
-  EXPECT_THAT(error_of("EDGE 1 2\n"), HasSubstr("victoria_park.txt:1: 'EDGE' is no known kind of line"));
+  EXPECT_THAT(error_of("EDGE 1 2\n"), HasSubstr("victoria_park.txt:1: 'EDGE' is not a known kind of line"));
   EXPECT_THAT(error_of("ODOMETRY 0 1 1 0 0\n"), HasSubstr(":1: expected 11 numbers after ODOMETRY"));
   EXPECT_THAT(error_of("LANDMARK 0 x\n"), HasSubstr("'x' is not a number"));
   EXPECT_THAT(error_of("ODOMETRY 5 6 1 0 0 0 0 0 0 0 0\n"), HasSubstr("does not go from the last pose"));
   EXPECT_THAT(error_of("ODOMETRY 0 0 1 0 0 0 0 0 0 0 0\n"), HasSubstr("does not go from the last pose"));
-  EXPECT_THAT(error_of("LANDMARK 7 8 1 1 1 0 1\n"), HasSubstr("is of an unknown pose or landmark"));
+  EXPECT_THAT(error_of("LANDMARK 7 8 1 1 1 0 1\n"), HasSubstr("refers to an unknown pose or landmark"));
 }
 
 TEST(VictoriaParkGraph, RecordingHoldsTheKnownCounts) {

@@ -59,7 +59,7 @@ TEST(VictoriaPark, ReadsSteeringAndTreesWithBearingsFromAhead) {
   EXPECT_NEAR(std::get<RangeBearing>(scans[0].second[0].value).bearing_rad, kPi / 2.0, 1e-12);
   EXPECT_TRUE(scans[1].second.empty());
   EXPECT_FALSE(source->info().identities);
-  EXPECT_THAT(source->notes(), ElementsAre(HasSubstr("no truth")));
+  EXPECT_THAT(source->notes(), ElementsAre(HasSubstr("no ground truth")));
 }
 
 TEST(VictoriaPark, TruthIsOfTheAntennaAndWithoutHeading) {
@@ -73,7 +73,7 @@ TEST(VictoriaPark, TruthIsOfTheAntennaAndWithoutHeading) {
   EXPECT_EQ(truth[0].second.y_m, -1.0);
   EXPECT_FALSE(truth[0].second.theta_rad.has_value());
   EXPECT_EQ(source->info().truth_sensor_m, Eigen::Vector2d(3.78, 0.5));
-  EXPECT_THAT(source->notes(), ElementsAre(HasSubstr("3 of 4 positions by satellites left out")));
+  EXPECT_THAT(source->notes(), ElementsAre(HasSubstr("3 of 4 GPS positions left out")));
 }
 
 TEST(VictoriaPark, WrongShapesAndDamageAreNamed) {

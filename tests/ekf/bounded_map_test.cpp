@@ -153,7 +153,7 @@ TEST(BoundedMap, SavesRaysAsThePointsThatTheyLeadTo) {
   EXPECT_EQ(loaded.ids, saved.ids);
   EXPECT_EQ(loaded.landmarks, saved.landmarks);
   EXPECT_EQ(loaded.covariance, saved.covariance);
-  EXPECT_FALSE(again.map.load(saved)) << "only before anything else";
+  EXPECT_FALSE(again.map.load(saved)) << "only before the first";
 }
 
 TEST(BoundedMap, APatchSaysFromWhereALandmarkWasSeen) {

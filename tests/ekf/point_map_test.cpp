@@ -92,7 +92,7 @@ TEST_F(MapOfThree, IsLoadedAsItWasSaved) {
   EXPECT_EQ(again.save().landmarks, saved.landmarks);
   EXPECT_EQ(again.save().covariance, saved.covariance);
   EXPECT_EQ(again.table().find(marker(2)), 2);
-  EXPECT_FALSE(again.load(saved)) << "only before anything else";
+  EXPECT_FALSE(again.load(saved)) << "only before the first";
 }
 
 }  // namespace

@@ -109,8 +109,8 @@ TEST(ImageFile, PgmGivesBackThePixels) {
 TEST(ImageFile, DamagedPgmIsAnError) {
   EXPECT_THAT(error_of(decode_image("P5", "a")), HasSubstr("a: damaged PGM file: no width"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")), HasSubstr("no width"));
-  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("grey up to 65535"));
-  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("breaks off"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("the maximum grey value is 65535"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("is cut off"));
   EXPECT_THAT(error_of(decode_image("P5 -3 2 255\n", "a")), HasSubstr("each side must have"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 255\n123456", "a", ImageSize{2, 3})),
               HasSubstr("expected 2 x 3"));

@@ -153,8 +153,8 @@ TEST(LogFolder, LostAndRepeatedImagesAreSkippedAndCounted) {
   EXPECT_EQ(delivered.error, "");
   EXPECT_EQ(delivered.events.size(), 2U);
   EXPECT_THAT((*log)->notes(), testing::UnorderedElementsAre(
-                                   "images skipped that repeat the stamp before them: 1",
-                                   "images skipped that are named in images.csv and missing in images/: 2"));
+                                   "images skipped with the same stamp as the one before: 1",
+                                   "images skipped that are listed in images.csv and missing in images/: 2"));
 }
 
 TEST(LogFolder, AnImageWithoutAFileIsAnError) {
@@ -237,7 +237,8 @@ TEST(LogFolder, NameIsThatOfTheFolderWhereNoneIsGiven) {
 TEST(LogFolder, BadLogYamlIsAnErrorWithItsLine) {
   EXPECT_THAT(error_of_yaml("name: x\n"), HasSubstr("log.yaml: the line `waymark_log: 1` is missing"));
   EXPECT_THAT(error_of_yaml(""), HasSubstr("`waymark_log: 1` is missing"));
-  EXPECT_THAT(error_of_yaml("waymark_log: 2\n"), HasSubstr("log.yaml:1: waymark_log: '2' is a version"));
+  EXPECT_THAT(error_of_yaml("waymark_log: 2\n"),
+              HasSubstr("log.yaml:1: waymark_log: '2' is not a supported version"));
   EXPECT_THAT(error_of_yaml("waymark_log: 1\nwheels:\n  trak_m: 1\n"),
               HasSubstr("log.yaml:3: unknown key wheels.trak_m, did you mean wheels.track_m?"));
   EXPECT_THAT(error_of_yaml("waymark_log: 1\nwheels: {track_m: wide}\n"),
@@ -293,7 +294,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"observations.csv", "stamp_s,id,range_m,bearing_rad\n1,2,-0.5,0\n",
                 "a range cannot be negative"},
         BadFile{"observations.csv", "stamp_s,id,range_m,bearing_rad\n1,2,,\n",
-                "observations.csv:2: nothing is measured"},
+                "observations.csv:2: no measurement"},
         BadFile{"observations.csv", "stamp_s,id,range_m\n1,-2,1\n", "observations.csv:2: id -2 is below 0"},
         BadFile{"observations.csv", "stamp_s,id,range_m\n1,2.5,1\n",
                 "'2.5' is not a whole number in column id"},
@@ -302,8 +303,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"observations.csv", "stamp_s,id,u_px,v_px\n1,2,5,\n", "column v_px is empty"},
         BadFile{"observations.csv", "stamp_s,id,range_m,u_px,v_px\n1,2,3,4,5\n", "not both"},
         BadFile{"truth.csv", "stamp_s,x_m,y_m,theta_rad\n1,2,,\n", "truth.csv:2: column y_m is empty"},
-        BadFile{"landmarks.csv", "id,x_m,y_m\n1,2,3\n1,4,5\n",
-                "landmarks.csv:3: landmark 1 stands here twice"},
+        BadFile{"landmarks.csv", "id,x_m,y_m\n1,2,3\n1,4,5\n", "landmarks.csv:3: landmark 1 is listed twice"},
         BadFile{"landmarks.csv", "id,x_m,y_m\n1,2\n", "landmarks.csv:2: expected 3 columns"}));
 
 TEST(LogFolder, ReadsTheMbotRecording) {

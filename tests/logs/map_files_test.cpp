@@ -119,13 +119,13 @@ INSTANTIATE_TEST_SUITE_P(
         MapDamage{"stamp_s: 1.5", "stamp_s: now", "m:3: 'now' is not a number of seconds"},
         MapDamage{"pose: 1 2 0.5", "pose: 1 nan 0.5", "m:4: 'nan' is not a finite number"},
         MapDamage{"pose: 1 2 0.5", "pose: 1 2", "m:4: '' is not a finite number"},
-        MapDamage{"pose: 1 2 0.5", "pose: 1 2 3 4", "m:4: there is more in this line"},
-        MapDamage{"dimension: 2", "dimension: 4", "m:5: the dimension of a landmark is 2 or 3"},
+        MapDamage{"pose: 1 2 0.5", "pose: 1 2 3 4", "m:4: unexpected text at the end of this line"},
+        MapDamage{"dimension: 2", "dimension: 4", "m:5: the dimension of a landmark must be 2 or 3"},
         MapDamage{"landmarks: 1", "landmarks: -1", "m:6: the number of landmarks cannot be negative"},
-        MapDamage{"landmarks: 1", "landmarks: 2000000000", "m:8: 'covariance:' is no kind of landmark"},
-        MapDamage{"marker 7", "tree 7", "m:7: 'tree' is no kind of landmark"},
+        MapDamage{"landmarks: 1", "landmarks: 2000000000", "m:8: 'covariance:' is not a kind of landmark"},
+        MapDamage{"marker 7", "tree 7", "m:7: 'tree' is not a kind of landmark"},
         MapDamage{"marker 7 3", "marker 7 -3", "m:7: the number of observations cannot be negative"},
-        MapDamage{"1.5 2.5\n", "1.5 2.5 3.5\n", "m:7: there is more in this line"},
+        MapDamage{"1.5 2.5\n", "1.5 2.5 3.5\n", "m:7: unexpected text at the end of this line"},
         MapDamage{"covariance: 5", "covariance: 7",
                   "m:8: the covariance has size 7, but pose and landmarks need 5"},
         MapDamage{"2 0 0 0\n", "2 0 inf 0\n", "m:10: 'inf' is not a finite number"},
@@ -151,7 +151,8 @@ TEST(MapFiles, PatchThatCannotBeOneIsAnErrorThatTellsWhere) {
   const auto error_of = [](std::string patches) {
     return parse_map(damaged("5\nend", "5\n" + std::move(patches) + "end"), "m").error().message;
   };
-  EXPECT_THAT(error_of("patches: 2\nmarker 7 0 0 0 ff\n"), HasSubstr("m:16: 'end' is no kind of landmark"));
+  EXPECT_THAT(error_of("patches: 2\nmarker 7 0 0 0 ff\n"),
+              HasSubstr("m:16: 'end' is not a kind of landmark"));
   EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 fg\n"), HasSubstr("m:15: the pixels of a patch"));
   EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 ffff\n"), HasSubstr("m:15: the pixels of a patch"));
   EXPECT_THAT(error_of("patches: 1\nmarker 7 0 0 0 f\n"), HasSubstr("m:15: the pixels of a patch"));
@@ -162,7 +163,7 @@ TEST(MapFiles, IdMayStandOnceUnlessItIsNobodys) {
   MapState map = random_map(2, 2);
   map.ids = {{LandmarkId::Family::kMarker, 3}, {LandmarkId::Family::kMarker, 3}};
   EXPECT_THAT(parse_map(format_map(map).value(), "m").error().message,
-              HasSubstr("landmark 3 stands here twice"));
+              HasSubstr("landmark 3 is listed twice"));
   map.ids = {LandmarkId{}, LandmarkId{}};
   EXPECT_TRUE(parse_map(format_map(map).value(), "m").ok());
 }

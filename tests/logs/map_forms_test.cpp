@@ -53,7 +53,7 @@ TEST_P(Forms, ATableKeepsTheLandmarksWithoutTheirCorrelations) {
   ASSERT_TRUE(write_map_of_any_form(folder.path() / "map.csv", map).ok());
   const auto read = read_map_of_any_form(folder.path() / "map.csv");
   ASSERT_FALSE(read);  // two kinds, one number
-  EXPECT_THAT(read.error().message, HasSubstr("landmark 4 stands here twice"));
+  EXPECT_THAT(read.error().message, HasSubstr("landmark 4 is listed twice"));
   MapState named = map;
   named.ids[1].number = 5;
   ASSERT_TRUE(write_map_of_any_form(folder.path() / "map.csv", named).ok());

@@ -60,7 +60,7 @@ TEST(MergedLog, ObservationsOfOneStampAreOneEvent) {
 TEST(MergedLog, OdometryOfOneStampStaysApartAndIsCounted) {
   auto log = merge("1 1\n1 2\n2 3\n", "");
   EXPECT_THAT(names(test::read_all(log).events), ElementsAre("v1", "v2", "v3"));
-  EXPECT_THAT(log.notes(), ElementsAre("a note", "rows of v that repeat the stamp before them: 1"));
+  EXPECT_THAT(log.notes(), ElementsAre("a note", "rows of v with the same stamp as the row before: 1"));
 }
 
 TEST(MergedLog, RowsThatGoBackInTimeAreRefusedOrSkipped) {

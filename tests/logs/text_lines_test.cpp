@@ -34,7 +34,7 @@ TEST(TextLines, ErrorNamesFileAndLineAndWhetherTheFileBreaksOff) {
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.error("bad").message, "f.csv:1: bad");
   ASSERT_TRUE(lines.next());
-  EXPECT_EQ(lines.error("bad").message, "f.csv:2: bad (the file breaks off in this line)");
+  EXPECT_EQ(lines.error("bad").message, "f.csv:2: bad (the file is cut off in this line)");
 }
 
 TEST(TextLines, ViewsStayValidWhenMoved) {

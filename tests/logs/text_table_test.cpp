@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"1,2\n", "wheels.csv:2: expected 3 columns (stamp_s,left_rad,right_rad), found 2"},
         BadTable{"1,2,3,\n", "wheels.csv:2: expected 3 columns (stamp_s,left_rad,right_rad), found 4"},
         BadTable{"1,2,3\n2,2",
-                 "wheels.csv:3: expected 3 columns (stamp_s,left_rad,right_rad), found 2 (the file breaks "
+                 "wheels.csv:3: expected 3 columns (stamp_s,left_rad,right_rad), found 2 (the file is cut "
                  "off in this line)"},
         BadTable{"1,abc,3\n", "wheels.csv:2: 'abc' is not a number in column left_rad"},
         BadTable{"1,2,3x\n", "wheels.csv:2: '3x' is not a number in column right_rad"},
@@ -96,9 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"nan,2,3\n", "wheels.csv:2: 'nan' is not a number of seconds in column stamp_s"},
         BadTable{",2,3\n", "wheels.csv:2: column stamp_s is empty; it needs a number of seconds"},
         BadTable{"\x01-\xFF,2,3\n", "wheels.csv:2: '?-?' is not a number of seconds in column stamp_s"},
-        BadTable{"2,2,3\n# why\n1.5,2,3\n",
-                 "wheels.csv:4: stamp 1.500000000 is before 2.000000000 in line 2; rows must be "
-                 "in the order of time"}));
+        BadTable{
+            "2,2,3\n# why\n1.5,2,3\n",
+            "wheels.csv:4: stamp 1.500000000 is before 2.000000000 in line 2; rows must be sorted by time"}));
 
 TEST(TextTable, HeaderErrorsNameWhatIsWrong) {
   EXPECT_EQ(table_error(""),
@@ -106,7 +106,7 @@ TEST(TextTable, HeaderErrorsNameWhatIsWrong) {
   EXPECT_EQ(table_error("stamp_s,left_rad\n"),
             "wheels.csv:1: column right_rad is missing; the columns are stamp_s,left_rad,right_rad");
   EXPECT_THAT(table_error("stamp_s,left_rda,right_rad\n"), HasSubstr("'left_rda', did you mean left_rad?"));
-  EXPECT_THAT(table_error("stamp_s,left_rad,left_rad,right_rad\n"), HasSubstr("left_rad stands here twice"));
+  EXPECT_THAT(table_error("stamp_s,left_rad,left_rad,right_rad\n"), HasSubstr("left_rad is listed twice"));
   EXPECT_THAT(table_error("1.0,2.0,3.0\n"), HasSubstr("unknown column '1.0'"));
 }
 

@@ -79,7 +79,7 @@ TEST(Tum, BadRowsAreErrorsWithTheirLine) {
     return read_tum(folder.write("t.tum", text)).error().message;
   };
   EXPECT_THAT(error_of("1 2 3 0 0 0 0 1\n2 2 3 0 0 0"), HasSubstr("t.tum:2: expected 8 columns"));
-  EXPECT_THAT(error_of("1 2 3 0 0 0 0 0\n"), HasSubstr("t.tum:1: the quaternion has no length"));
+  EXPECT_THAT(error_of("1 2 3 0 0 0 0 0\n"), HasSubstr("t.tum:1: the quaternion is zero"));
   EXPECT_THAT(error_of("1 nan 3 0 0 0 0 1\n"), HasSubstr("t.tum:1: 'nan'"));
   EXPECT_THAT(error_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), HasSubstr("t.tum:2: stamp"));
 }

@@ -102,7 +102,7 @@ TEST(MarkerFrontEnd, TrustsNeitherOfTwoWithOneNumber) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   EXPECT_THAT(seen_in(*front_end, image_of({{3, at(-0.4, 2.0)}, {3, at(0.4, 2.0)}, {5, at(0.0, 2.0)}})),
               ElementsAre(5));
-  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("marker 3 is twice in 1 images")));
+  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("marker 3 appears twice in 1 images")));
 }
 
 TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
@@ -115,7 +115,7 @@ TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
   EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
   for (int i = 0; i < 20; ++i) EXPECT_THAT(seen_in(*front_end, without), ElementsAre(1));
   EXPECT_THAT(seen_in(*front_end, with), ElementsAre(1));  // 2 begins anew
-  EXPECT_THAT(front_end->notes({}), ElementsAre(HasSubstr("marker 2 was seen too seldom")));
+  EXPECT_THAT(front_end->notes({}), ElementsAre(HasSubstr("marker 2 was found in too few images")));
 }
 
 TEST(MarkerFrontEnd, ImagesMayBeAnnouncedLongBeforeAndDropped) {
@@ -158,7 +158,7 @@ TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
   const auto front_end = *MarkerFrontEnd::make(options, Camera(test::marker_camera()));
   const MarkerOutline square{5, {{{100.0, 100.0}, {150.0, 100.0}, {150.0, 150.0}, {100.0, 150.0}}}};
   EXPECT_THAT(front_end->see(MarkerOutlines{square}), IsEmpty());
-  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("nobody said how large")));
+  EXPECT_THAT(front_end->notes({}), testing::Contains(HasSubstr("their size is unknown")));
 }
 
 TEST(MarkerFrontEnd, EndsWhileImagesWait) {
@@ -188,7 +188,7 @@ TEST(MarkerFrontEnd, NoticesJumpsWhereAFifthOfTheObservationsIsRefused) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   const auto lines = front_end->notes(all);
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_THAT(lines[0], HasSubstr("marker 2 was 10 times out of 40 not where it should be"));
+  EXPECT_THAT(lines[0], HasSubstr("marker 2 was 10 times of 40 outside its gate"));
 }
 
 /// The first seconds of a drive through a rendered room.
@@ -264,7 +264,7 @@ TEST(MarkerConfig, TheCameraIsTheLandmarkSensor) {
 TEST(MarkerConfig, WithoutDictionaryNothingRuns) {
   const auto recording = drive({"observe=markers"}, 1.0, "room");
   ASSERT_FALSE(recording.ok());
-  EXPECT_THAT(recording.error().message, HasSubstr("markers.dictionary: which markers"));
+  EXPECT_THAT(recording.error().message, HasSubstr("markers.dictionary is not set"));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ std::string error_of(const MarkerOptions& options) {
 }
 
 TEST(MarkerOptions, SayWhatTheyLack) {
-  EXPECT_THAT(error_of({}), HasSubstr("markers.dictionary: which markers"));
-  EXPECT_THAT(error_of({.dictionary = "4x4_50"}), HasSubstr("markers.size_m: how large"));
+  EXPECT_THAT(error_of({}), HasSubstr("markers.dictionary is not set"));
+  EXPECT_THAT(error_of({.dictionary = "4x4_50"}), HasSubstr("markers.size_m is not set"));
   EXPECT_THAT(error_of({.dictionary = "4x5_50", .size_m = 0.1}), HasSubstr("unknown dictionary"));
   EXPECT_EQ(error_of({.dictionary = "4x4_50", .size_m = 0.1}), "none");
 }

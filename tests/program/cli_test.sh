@@ -90,7 +90,7 @@ refuses 2 'empty' check empty
 refuses 2 'nowhere.tum' eval nowhere.tum --truth empty
 
 printf 'MATLAB 5.0 MAT-file, broken off' >x.mat
-refuses 2 'x.mat: is no MATLAB file' run x.mat -o o
+refuses 2 'x.mat: is not a MATLAB file' run x.mat -o o
 { printf '%-124s' 'MATLAB 5.0 MAT-file, broken off' && printf '\0\001IM\016\0\0\0\377\377\0\0'; } >y.mat
 refuses 2 'y.mat: damaged MATLAB file' run y.mat -o o
 
@@ -140,7 +140,7 @@ places() { awk '/^(marker|barcode)/ { print $2, $4, $5 }' "$1"; }
 cmp -s <(places whole/map.waymark) <(places found/map.waymark) || fail 'localising moves landmarks'
 refuses 2 'map.localize: needs a saved map' run log -o o --localize
 awk '/^(marker|barcode)/ { $4 = -$4 } { print }' whole/map.waymark >mirrored.waymark
-refuses 2 'it is of another place' run log -o o --map mirrored.waymark --localize
+refuses 2 'the map is of another place' run log -o o --map mirrored.waymark --localize
 sed -E 's/^(marker|barcode) /&9/' whole/map.waymark >renamed.waymark
 refuses 2 'the map has 0' run log -o o --map renamed.waymark --localize
 
@@ -205,7 +205,7 @@ refuses 2 'images.csv:22' run spoilt -o o
 spoil && rm spoilt/images/*.png
 refuses 2 'no image' run spoilt -o o
 does run room -o o --set tracker.frame_budget_ms=0.3
-grep -q 'for want of time' out.txt || fail 'a budget that is too small is not named'
+grep -q 'for lack of time' out.txt || fail 'a budget that is too small is not named'
 
 # Given pixels: the camera is in the folder too, and so is everything that can be wrong.
 mono() { # a log of three steps, made anew
@@ -218,7 +218,7 @@ mono() { # a log of three steps, made anew
   done
 }
 mono && does run mono -o o
-grep -q 'every point got noise of 1 px' out.txt || fail 'added noise is not named'
+grep -q 'noise of 1 px was added to every point' out.txt || fail 'added noise is not named'
 does check mono
 grep -q 'planar mono SLAM' out.txt || fail 'planar-mono-slam is not recognised'
 mono && rm mono/meas-00001.dat

@@ -41,7 +41,7 @@ TEST(OpenSource, RecognisesMatFilesByTheirVariablesAndChoosesTheRun) {
               HasSubstr("a.mat is not a log: expected the variables of Plaza (GT, DR, TD)"));
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("a.mat is not a log"));
   EXPECT_THAT(open_source(folder.path(), {.run = 2}).error().message,
-              HasSubstr("b.mat: is no MATLAB file that can be read"));
+              HasSubstr("b.mat: is not a MATLAB file that can be read"));
   EXPECT_THAT(open_source(folder.path(), {.run = 3}).error().message,
               HasSubstr("no run 3; input.run can be 1 to 2"));
 }

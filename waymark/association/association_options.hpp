@@ -6,7 +6,7 @@
 
 namespace waymark {
 
-/// What is assumed of observations that do not say which landmark they are of.
+/// Assumptions for data association of observations of unknown identity.
 struct AssociationOptions {
   double false_alarm_probability = 0.02;  ///< Pfa: that something else is taken for it
   double clutter_per_scan = 1.0;          ///< observations of nothing
@@ -19,9 +19,10 @@ struct AssociationOptions {
 /// A landmark that was never confirmed is given up after this way without an observation.
 inline constexpr double kTentativeDistance_m = 5.0;
 
-/// The numbers that association works with. Log-odds of existence grow by log(Pd / Pfa) when a landmark is
-/// seen and by log((1 - Pd) / (1 - Pfa)) when it should have been; they begin at 0, and below 0 the landmark
-/// is given up. Pd is the sensor's, 0.9 where it is not known.
+/// Parameters of data association. The log-odds of a landmark's existence start at 0, grow by log(Pd / Pfa)
+/// when it is observed and change by log((1 - Pd) / (1 - Pfa)) when it should have been but was not;
+/// below 0 the landmark is removed. Pd is the detection probability of the sensor, or 0.9 if that is
+/// unknown.
 class AssociationModel {
  public:
   AssociationModel(const AssociationOptions& options, const LandmarkSensor& sensor);

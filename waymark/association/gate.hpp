@@ -8,8 +8,8 @@ struct GateOptions {
   double probability = 0.999999;  ///< part of the true observations that may pass
 };
 
-/// Chi-square thresholds on the NIS, looked up once: identities are gated like everything else, since a
-/// reader misreads now and then.
+/// Chi-square thresholds for the NIS, computed once. Observations of known identity are gated, too,
+/// because a sensor may misread identities.
 class Gate {
  public:
   explicit Gate(const GateOptions& options);

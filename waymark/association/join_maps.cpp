@@ -209,7 +209,7 @@ MapState pick(const MapState& first, const MapState& second, const std::vector<C
 
 Result<JoinedMap> join_maps(const MapState& first, const MapState& second, PoseOf pose) {
   if (first.landmark_dimension != 2 || second.landmark_dimension != 2)
-    return Error{"maps can be joined where their landmarks are of dimension 2"};
+    return Error{"only maps with landmarks of dimension 2 can be joined"};
   const auto common = common_landmarks(first, second);
   if (common.size() < 2)
     return Error{concat("the maps have ", common.size(),

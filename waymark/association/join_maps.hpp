@@ -8,7 +8,7 @@ namespace waymark {
 /// Which robot's pose a joined map keeps.
 enum class PoseOf { kFirst, kSecond };
 
-/// Two maps as one, in the frame of the first.
+/// Two maps merged into one, in the frame of the first.
 struct JoinedMap {
   MapState map;
   int common = 0;  ///< landmarks of both

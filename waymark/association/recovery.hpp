@@ -7,12 +7,12 @@
 
 namespace waymark {
 
-/// The way back of a robot that slipped as its odometry says it never does. A filter that went on gating
-/// would stay lost.
+/// Recovery from a slip that the odometry noise does not explain. A filter that only went on gating would
+/// stay lost.
 ///
-/// A misread identity is an odd one out. So many gated observations without an accepted one between them, in
-/// a scan that is mostly gated, mean that not they are wrong but the pose. Then its covariance is inflated
-/// step by step until at least half of the scan passes the gate.
+/// Misread identities are rare. So many consecutive gated observations, in a scan that is mostly gated,
+/// mean that the pose is wrong, not the observations. Then its covariance is inflated step by step until
+/// at least half of the scan passes the gate.
 class Recovery {
  public:
   /// Counts the outcomes of one scan, once. True if the robot is lost. O(observations).

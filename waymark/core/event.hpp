@@ -42,7 +42,7 @@ struct OdometryPose {
   Pose2 T_odom_robot;
 };
 
-/// How fast the robot turns by its gyro, counter-clockwise from above.
+/// Yaw rate measured by a gyro, counter-clockwise seen from above.
 struct YawRate {
   double w_radps = 0.0;
 };
@@ -67,7 +67,7 @@ struct MarkerOutline {
 /// All of one image.
 using MarkerOutlines = std::vector<MarkerOutline>;
 
-/// Where the truth sensor really was. The heading may be unknown.
+/// True position of the truth sensor. The heading may be unknown.
 struct Truth {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -77,8 +77,8 @@ struct Truth {
 using EventContent = std::variant<WheelAngles, Velocity, Steering, OdometryPose, YawRate, Image,
                                   MarkerOutlines, Observations, Truth>;
 
-/// Who tells an event: which robot, and which of its devices. Logs of one robot with one device of each kind
-/// leave both at 0; sources with more number the devices of a robot over all kinds.
+/// Source of an event: robot and device. Logs of one robot with one device of each kind leave both at 0;
+/// sources with more number the devices of a robot over all kinds.
 struct StreamId {
   std::uint16_t robot = 0;
   std::uint16_t device = 0;
@@ -86,7 +86,7 @@ struct StreamId {
   friend auto operator<=>(const StreamId&, const StreamId&) = default;
 };
 
-/// What a log is made of.
+/// One entry of a log: a stamp, its source and its content.
 struct Event {
   /// Of the only robot, by its only device of the kind.
   Event(Stamp when, EventContent what) : Event(when, StreamId{}, std::move(what)) {}

@@ -11,21 +11,21 @@ const char* describe(Outcome outcome) {
     case Outcome::kAdded:
       return "added";
     case Outcome::kGated:
-      return "outside its gate";
+      return "rejected by the gate";
     case Outcome::kUnidentified:
-      return "without identity";
+      return "of unknown identity";
     case Outcome::kUnusable:
       return "unusable";
     case Outcome::kAmbiguous:
       return "ambiguous";
     case Outcome::kDuplicate:
-      return "seen twice in one scan";
+      return "landmark observed twice in one scan";
     case Outcome::kDeferred:
-      return "kept until its landmark can be located";
+      return "kept until the position of its landmark can be estimated";
     case Outcome::kMapFull:
-      return "map full";
+      return "the map is full (map.capacity)";
     case Outcome::kNotInMap:
-      return "of a landmark that the held map does not have";
+      return "its landmark is not in the map";
   }
   return "unknown";
 }

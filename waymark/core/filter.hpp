@@ -14,7 +14,7 @@ namespace waymark {
 
 class FunctionBlocks;
 
-/// What became of one observation.
+/// How one observation was used, or why it was not.
 enum class Outcome : std::uint8_t {
   kMatched,       ///< updated the filter
   kAdded,         ///< became a new landmark
@@ -30,7 +30,7 @@ enum class Outcome : std::uint8_t {
 
 [[nodiscard]] const char* describe(Outcome outcome);
 
-/// How one observation compared with what was expected.
+/// Comparison of one observation with its prediction.
 struct Innovation {
   LandmarkId landmark;
   Outcome outcome = Outcome::kUnusable;
@@ -43,15 +43,15 @@ struct Innovation {
   double log_density = 0.0;
 };
 
-/// What correct() did. A view into the filter, valid until its next call.
+/// Result of correct(). A view into the filter, valid until its next call.
 struct Correction {
   std::span<const Innovation> innovations;  ///< one per observation, in their order
   std::span<const LandmarkId> removed;
   [[nodiscard]] int count(Outcome outcome) const;
 };
 
-/// The seam between the pipeline and whatever estimates: one virtual call per step, everything within is
-/// concrete. predict(), correct() and pose() neither allocate in a steady state nor throw.
+/// Interface between the pipeline and a filter: one virtual call per step, everything within is concrete.
+/// predict(), correct() and pose() neither allocate in a steady state nor throw.
 class Filter {
  public:
   Filter() = default;

@@ -6,7 +6,7 @@
 
 namespace waymark {
 
-/// A look at 8-bit grey pixels that somebody else keeps: row v begins at data + v * stride. Origin at the
+/// A view of 8-bit grey pixels that are owned elsewhere: row v begins at data + v * stride. Origin at the
 /// centre of the first pixel, u right, v down.
 struct ImageView {
   const std::uint8_t* data = nullptr;
@@ -25,7 +25,7 @@ struct ImageView {
   }
 };
 
-/// An 8-bit grey image that keeps its pixels, row after row without gaps.
+/// An 8-bit grey image that owns its pixels, row after row without gaps.
 class GreyImage {
  public:
   GreyImage() = default;

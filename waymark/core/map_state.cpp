@@ -10,7 +10,7 @@ Result<void> check_fits(const MapState& map, int landmark_dimension, int capacit
     return Error{
         concat("map: its landmarks are of dimension ", map.landmark_dimension, ", not ", landmark_dimension)};
   if (count > capacity)
-    return Error{concat("map: ", count, " landmarks are more than the filter has room for, ", capacity)};
+    return Error{concat("map: ", count, " landmarks are more than the capacity of the filter, ", capacity)};
   const Eigen::Index size = 3 + landmark_dimension * count;
   if (std::ssize(map.observations) != count || map.landmarks.size() != size - 3 ||
       map.covariance.rows() != size || map.covariance.cols() != size)

@@ -25,22 +25,22 @@ struct LandmarkEstimate {
   std::optional<Eigen::Matrix3d> within;
 };
 
-/// What a filter believes at one moment, each landmark with its marginal covariance.
+/// Estimate of a filter at one moment; each landmark has its marginal covariance.
 struct Snapshot {
   Stamp stamp;
   PoseEstimate pose;
   std::vector<LandmarkEstimate> landmarks;
 };
 
-/// What a landmark looks like to a camera.
+/// Image patch of a landmark.
 struct LandmarkPatch {
   LandmarkId id;
   Pose2 T_world_robot;               ///< where the robot was believed to be when the patch was cut
   std::vector<std::uint8_t> pixels;  ///< grey, a square with the landmark in its middle, row by row
 };
 
-/// The whole belief with its correlations, as it is saved: mean and covariance of (pose, landmark 1, landmark
-/// 2, ...).
+/// The whole estimate with its correlations, as it is saved: mean and covariance of (pose, landmark 1,
+/// landmark 2, ...).
 struct MapState {
   std::string made_by;         ///< program, version and input
   int landmark_dimension = 2;  ///< 2: (x, y); 3: (x, y, z)

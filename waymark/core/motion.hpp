@@ -6,8 +6,8 @@
 
 namespace waymark {
 
-/// What every kind of odometry becomes, and all that a filter knows of it: how far the robot moved, in the
-/// frame it had before, and how sure that is.
+/// Motion of the robot over one step, from any kind of odometry: the increment in the frame before the
+/// step, and its covariance.
 struct Motion {
   Pose2 increment;  ///< T_before_after
   Eigen::Matrix3d covariance =

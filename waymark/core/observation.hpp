@@ -11,8 +11,8 @@
 
 namespace waymark {
 
-/// Who a landmark is: the family says what kind of name the number is. A robot that another robot sees is
-/// named as landmarks are, but never one: it moves.
+/// Identity of a landmark: a family (kind of number) and a number. Robots observed by other robots have
+/// identities, too, but are never landmarks, because they move.
 struct LandmarkId {
   enum class Family : std::uint8_t { kNone, kMarker, kBarcode, kCorner, kRobot };
 

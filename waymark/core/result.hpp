@@ -6,7 +6,7 @@
 
 namespace waymark {
 
-/// Why something could not be done, as one line that a user can act on.
+/// Reason of a failure, as one line that tells the user what to do.
 struct Error {
   enum class Kind {
     kBadInput,  ///< the caller's file, key or value is at fault (exit status 2)

@@ -31,7 +31,8 @@ BoundedMap::BoundedMap(const PixelSlamOptions& options, const Camera& camera, in
 
 Result<void> BoundedMap::load(const MapState& saved) {
   if (auto fits = check_fits(saved, 3, map_.capacity()); !fits) return fits;
-  if (!map_.features().empty()) return Error{"map: a filter takes one only before anything else"};
+  if (!map_.features().empty())
+    return Error{"map: can be loaded only before the first motion or observation"};
   map_.load(saved);
   for (int i = 0; i < static_cast<int>(saved.ids.size()); ++i) {
     PixelMap::Feature& feature = map_.feature(i);

@@ -26,16 +26,15 @@ namespace waymark {
 /// EKF-SLAM (Vincke et al. 2012 \cite vincke2012) over range-bearing observations of 2-D landmarks, gated one
 /// by one; a first observation adds its landmark, in the place of the least useful one when the map is full.
 ///
-/// Ranges alone, or bearings alone, need identities. A landmark that is seen so is not in the state before
-/// several views of it, each with the place that it was seen from as points of the state, leave one position
-/// for it; then all of them correct it at once. Until then it costs a point, or two, per view, out of the
-/// capacity.
+/// Ranges alone or bearings alone need identities. Such a landmark is added only once several views leave
+/// a single position for it (deferred initialisation); then all of them correct it at once. Until then
+/// the positions of its views are in the state, one or two points of the capacity each.
 ///
-/// Observations without identity are refused, or, with EkfOptions::unknown, matched with landmarks that are
-/// likely. One that is left over begins a landmark if it is outside of the gates of all landmarks even after
-/// the others have corrected the state; in between it is ambiguous and not used. A landmark that was begun so
-/// is tentative, in the state but not in the map, until its Existence is confirmed; false tracks are removed,
-/// and two landmarks that turn out to be one are merged.
+/// Observations of unknown identity are not used, or, with EkfOptions::unknown, matched with the
+/// likeliest landmarks. An unmatched one starts a landmark if it is outside the gates of all landmarks
+/// even after the others have corrected the state; otherwise it is ambiguous and not used. The new
+/// landmark is tentative, in the state but not in the map, until its existence is confirmed; false tracks
+/// are removed, and two landmarks that turn out to be the same are merged.
 class EkfSlam final : public Filter {
  public:
   /// Of `sensor` it takes where it sits, its biases, and its noise where an observation brings no

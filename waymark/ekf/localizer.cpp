@@ -180,13 +180,13 @@ std::string Localizer::reason(const PoseCandidates& found) const {
   const std::string seen = concat("of ", memory_.size(), " landmarks seen in ", observations_,
                                   " observations and ", decimals(driven_s_, 0), " s of driving");
   if (candidates < 2)
-    return concat("map: the robot is not in it: ", seen, " the map has ", candidates,
-                  "; it is of another place");
+    return concat("map: localisation failed: ", seen, " the map has ", candidates,
+                  "; the map is of another place");
   if (found.best.agreeing >= kMinUnknown && found.best.agreeing < found.rival + kMinAhead)
-    return concat("map: the robot may be in several places of it: ", seen, " ", found.best.agreeing,
-                  " agree on one, ", found.rival, " on another");
-  return concat("map: the robot is not in it: ", seen, " no more than ", found.best.agreeing,
-                " stand as in the map; it is of another place");
+    return concat("map: localisation is ambiguous: ", seen, " ", found.best.agreeing, " fit one pose, ",
+                  found.rival, " another");
+  return concat("map: localisation failed: ", seen, " no more than ", found.best.agreeing,
+                " are arranged as in the map; the map is of another place");
 }
 
 const Correction& Localizer::settle(const PoseCandidate& found) {

@@ -9,16 +9,17 @@
 
 namespace waymark {
 
-/// The pose in a saved map that is held as it is.
+/// Localisation in a saved map that stays unchanged.
 ///
-/// It starts anywhere: what is seen is remembered in the robot's frame until enough of it stands as the map
-/// has it (find_pose()). That tells where to linearise; what is known of the pose then comes from an update
-/// with all that is remembered, so that pose and map are correlated as they should be. From there on it is
-/// EkfSlam that considers the map's uncertainty without changing the map (Schmidt 1966 \cite schmidt1966).
+/// The robot may start anywhere: observations are collected in its frame until enough of them are
+/// arranged as in the map (find_pose()). That gives the point of linearisation; the pose then comes from
+/// an update with all collected observations, so that pose and map are correctly correlated. From there
+/// on it is EkfSlam with considered landmarks, whose uncertainty counts but which do not change (Schmidt
+/// 1966 \cite schmidt1966).
 ///
-/// A robot whose observations contradict the map for long is searched for anew. Where twenty observations
-/// give no pose, the filter gives up and says why; sooner where no two of several landmarks stand as in the
-/// map.
+/// If observations contradict the map for long, localisation starts again. If twenty observations give no
+/// pose, the filter gives up and reports the reason; sooner if no two of several landmarks are arranged
+/// as in the map.
 class Localizer final : public Filter {
  public:
   /// A filter over the map, or why it cannot be one. Options and sensor as EkfSlam's; capacity, consistency

@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// What may be wrong with the odometry always, and is estimated beside path and map.
+/// Calibration of the odometry that is estimated together with path and map.
 struct OdometryStateOptions {
   bool estimate = false;
   double speed_scale_sigma = 0.05;

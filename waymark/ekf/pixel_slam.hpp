@@ -17,10 +17,10 @@
 
 namespace waymark {
 
-/// EKF-SLAM over the pixels of points in space (Vincke et al. 2012 \cite vincke2012). It sees no image: who
-/// looks for its landmarks asks expect() where to look, and reports what it found (correct()) and what not
-/// (missed()). A pixel with an identity that is not known begins a candidate, whose distance later pixels
-/// find out.
+/// EKF-SLAM with 3-D points observed as pixels (Vincke et al. 2012 \cite vincke2012). It handles no
+/// images: the front end asks expect() where to search for landmarks, and reports those found (correct())
+/// and not found (missed()). A pixel of a new identity starts a candidate, whose depth is estimated from
+/// later pixels.
 class PixelSlam final : public Filter {
  public:
   /// `threads` share updates of large maps; the result does not depend on them. Takes all its memory here.

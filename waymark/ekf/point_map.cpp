@@ -34,7 +34,7 @@ PointMap::PointMap(const EkfOptions& options, int error_pairs, int threads)
 
 Result<void> PointMap::load(const MapState& map) {
   if (auto fits = check_fits(map, 2, state_.capacity()); !fits) return fits;
-  if (table_.size() > 0) return Error{"map: a filter takes one only before anything else"};
+  if (table_.size() > 0) return Error{"map: can be loaded only before the first motion or observation"};
   if (std::ssize(map.ids) > state_.max_loaded())
     return Error{concat("map: ", map.ids.size(), " landmarks, but EkfOptions::loaded is ", loaded_)};
   state_.load(mean_of(map), map.covariance);

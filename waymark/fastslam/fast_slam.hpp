@@ -26,9 +26,9 @@
 namespace waymark {
 
 /// FastSLAM 1.0 and 2.0 (Montemerlo et al. 2002, 2003 \cite montemerlo2002 \cite montemerlo2003) over
-/// observations of 2-D landmarks, with identities or without, by range and bearing, range alone or bearing
-/// alone. Motion is collected until something is seen, then every particle draws from it. docs/fastslam.md
-/// has the equations.
+/// observations of 2-D landmarks of known or unknown identity, by range and bearing, range alone or
+/// bearing alone. Motion is accumulated until the next observation; then every particle draws a pose from
+/// it. docs/fastslam.md has the equations.
 ///
 /// Given a particle's path the pose of a first observation is exactly known. So a landmark of which only the
 /// bearing is known is kept as direction and inverse distance from there, one of which only the range is

@@ -88,8 +88,8 @@ std::optional<std::string> DictionaryCheck::verdict() const {
   if (best && best->markers >= kMoreMin && best->markers > kMoreByFactor * own)
     return concat(found, "; in ", images.size(), " of them ",
                   smallest_with(best->dictionary, best->largest_id).name, " finds ", best->markers,
-                  " where it finds ", own, ": it is probably the right one");
-  if (observations_ == 0) return found + ", and no other dictionary that this build knows does better";
+                  " where it finds ", own, ", so it is probably the right one");
+  if (observations_ == 0) return found + ", and no other dictionary of this build finds more";
   return std::nullopt;
 }
 

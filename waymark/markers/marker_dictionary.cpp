@@ -63,7 +63,7 @@ Result<MarkerDictionary> find_marker_dictionary(std::string_view name) {
   if (found != kDictionaries.end()) return *found;
   const std::string near = nearest_name(name, names());
   return Error{concat("markers.dictionary: unknown dictionary '", name, "'",
-                      near.empty() ? "" : concat(", did you mean '", near, "'?"), "; there are ",
+                      near.empty() ? "" : concat(", did you mean '", near, "'?"), "; known are ",
                       comma_separated(names()))};
 }
 

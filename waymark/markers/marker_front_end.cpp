@@ -26,9 +26,9 @@ std::vector<std::string> describe_jumps(std::span<const Innovation> innovations)
   std::vector<std::string> lines;
   for (const auto& [id, of] : counts)
     if (of.refused >= kMin && kPartMin * of.refused >= of.all)
-      lines.push_back(concat(
-          "marker ", id.number, " was ", of.refused, " times out of ", of.all,
-          " not where it should be: do two markers bear this number, or is markers.size_m not its own?"));
+      lines.push_back(concat("marker ", id.number, " was ", of.refused, " times of ", of.all,
+                             " outside its gate: do two markers have this number, or has this one another "
+                             "size than markers.size_m?"));
   return lines;
 }
 
@@ -215,10 +215,11 @@ std::vector<std::string> MarkerFrontEnd::notes(std::span<const Innovation> innov
                              markers::describe(static_cast<markers::Refusal>(i))));
   for (const auto& [id, trial] : trials_)
     if (trial.observations < confirm_)
-      lines.push_back(concat("marker ", id.number, " was seen too seldom to be believed (markers.confirm)"));
+      lines.push_back(
+          concat("marker ", id.number, " was found in too few images to be used (markers.confirm)"));
   for (const auto& [id, images] : duplicates_)
     lines.push_back(
-        concat("marker ", id.number, " is twice in ", images, " images: print every number once"));
+        concat("marker ", id.number, " appears twice in ", images, " images: print each number only once"));
   std::ranges::move(describe_jumps(innovations), std::back_inserter(lines));
   return lines;
 }

@@ -27,15 +27,15 @@ constexpr double kMisfitMax = 40.0;
 const char* describe(Refusal refusal) {
   switch (refusal) {
     case Refusal::kNoSize:
-      return "nobody said how large they are: markers.size_m, markers.sizes_m";
+      return "their size is unknown: set markers.size_m or markers.sizes_m";
     case Refusal::kNoBorder:
-      return "no black border on white paper";
+      return "without a black border on white";
     case Refusal::kUnclear:
-      return "not all of their sides can be seen clearly";
+      return "not all of their sides are clearly visible";
     case Refusal::kEdgeOn:
       return "seen edge-on";
     case Refusal::kDuplicate:
-      return "their identity is twice in one image";
+      return "their identity appears twice in one image";
   }
   return "unknown";
 }

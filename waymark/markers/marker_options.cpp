@@ -28,8 +28,9 @@ Result<std::map<std::int32_t, double>> parse_sizes(std::string text, int count) 
     double size_m = 0.0;
     if (colon == std::string_view::npos || !parse(entry.substr(0, colon), id) || id < 0 || id >= count ||
         !parse(entry.substr(colon + 1), size_m) || !(size_m > 0.0) || !std::isfinite(size_m))
-      return Error{concat("markers.sizes_m: '", entry, "' is no size of a marker; expected identities below ",
-                          count, " and sides in metres like '3: 0.1, 7: 0.25'")};
+      return Error{concat("markers.sizes_m: '", entry,
+                          "' is not the size of a marker; expected identities below ", count,
+                          " and sides in metres like '3: 0.1, 7: 0.25'")};
     sizes_m[id] = size_m;
   }
   return sizes_m;
@@ -45,16 +46,16 @@ double MarkerSet::size_of(std::int32_t id) const {
 Result<MarkerSet> marker_set(const MarkerOptions& options) {
   if (options.dictionary.empty())
     return Error{
-        "markers.dictionary: which markers are to be found? Set it to the name of their dictionary, for "
-        "example 4x4_50 or apriltag_36h11; `waymark config markers` lists all"};
+        "markers.dictionary is not set: give the dictionary of the markers, for example 4x4_50 or "
+        "apriltag_36h11; `waymark config markers` lists all"};
   const auto dictionary = find_marker_dictionary(options.dictionary);
   if (!dictionary) return dictionary.error();
   auto sizes_m = parse_sizes(options.sizes_m, dictionary->size);
   if (!sizes_m) return sizes_m.error();
   if (options.size_m == 0.0 && sizes_m->empty())
     return Error{
-        "markers.size_m: how large are the markers? Set it to the side of their black squares in metres, for "
-        "example 0.085, or markers.sizes_m where they differ"};
+        "markers.size_m is not set: give the side of the black squares of the markers in metres, for example "
+        "0.085, or markers.sizes_m if they differ"};
   return MarkerSet{*dictionary, options.size_m, *std::move(sizes_m)};
 }
 

@@ -8,7 +8,8 @@
 
 namespace waymark {
 
-/// Errors of a sensor that are not drawn anew at every observation.
+/// Systematic errors of a sensor: those that all observations share, and Gauss-Markov biases per
+/// landmark.
 struct SensorErrors {
   double shared_range_sigma_ratio = 0.0;  ///< of what all ranges of a log have in common, per metre of range
   double shared_range_sigma_m = 0.0;      ///< of an offset of all ranges
@@ -26,7 +27,7 @@ struct SensorErrors {
   [[nodiscard]] bool lasts() const { return bias_range_sigma_ratio > 0.0 || bias_bearing_sigma_deg > 0.0; }
 };
 
-/// A sensor that reports landmarks: where it sits on the robot, what it can see, and how it errs.
+/// A sensor that observes landmarks: its position on the robot, its field of view and its errors.
 struct LandmarkSensor {
   double x_m = 0.0;  ///< ahead of the robot's origin
   double y_m = 0.0;  ///< left of it
@@ -60,7 +61,7 @@ struct LandmarkSensor {
 /// values use (0, 0)); zero for a kind that this sensor does not measure.
 [[nodiscard]] Eigen::Matrix2d noise_covariance(const LandmarkSensor& sensor, const Measurement& measurement);
 
-/// How far inside the limits of a sensor.
+/// Margins inside the limits of a sensor.
 struct ViewMargin {
   double range_m = 0.0;
   double bearing_rad = 0.0;

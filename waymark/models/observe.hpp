@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// Which part of what the log holds is used.
+/// Kind of observations to use.
 enum class Observe { kRangeBearing, kRange, kBearing, kPixel, kMarkers };
 
 /// Whether every observation has a range and a bearing.

@@ -26,8 +26,7 @@ ArcStep scaled(ArcStep step, const OdometryOptions& options) {
 
 Result<void> check(const WheelGeometry& wheels) {
   const auto missing = [](const char* key) {
-    return Error{std::string(key) + " is not known: give it in the log's log.yaml or with --set " + key +
-                 "=..."};
+    return Error{std::string(key) + " is unknown: give it in the log's log.yaml or by --set " + key + "=..."};
   };
   if (!(wheels.left_radius_m > 0.0)) return missing("wheels.left_radius_m");
   if (!(wheels.right_radius_m > 0.0)) return missing("wheels.right_radius_m");
@@ -37,8 +36,7 @@ Result<void> check(const WheelGeometry& wheels) {
 
 Result<void> check(const CarGeometry& car) {
   if (car.wheel_base_m > 0.0) return {};
-  return Error{
-      "car.wheel_base_m is not known: give it in the log's log.yaml or with --set car.wheel_base_m=..."};
+  return Error{"car.wheel_base_m is unknown: give it in the log's log.yaml or by --set car.wheel_base_m=..."};
 }
 
 Pose2 arc_increment(const ArcStep& step, ArcModel model) {

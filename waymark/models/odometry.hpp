@@ -22,8 +22,8 @@ struct CarGeometry {
   double encoder_offset_m = 0.0;  ///< how far left of the middle the wheel with the encoder is
 };
 
-/// How the increments of odometry go wrong. All are variances per metre or radian travelled, so that cutting
-/// a motion into more steps changes nothing, and all vanish when the robot stands still.
+/// Noise of odometry increments. All are variances per metre or radian travelled, so they do not depend
+/// on the length of a step, and all vanish when the robot stands still.
 struct OdometryNoise {
   double wheel_var_m2_per_m = 1e-4;     ///< each measured wheel's own error, per metre that the wheel rolls
   double forward_var_m2_per_m = 1e-4;   ///< slip along the heading
@@ -33,14 +33,14 @@ struct OdometryNoise {
   double steer_var_rad2_m = 1e-4;       ///< of a steering angle, times the way on which its error lasts
 };
 
-/// When the robot stands, so that what its odometry turns is an error of its own: it reports less speed and
-/// less turning than this. A speed of zero: never.
+/// When the robot counts as standing, so that the turn rate of its odometry is a bias: its speed and turn
+/// rate are below these. A speed of 0 disables this.
 struct StandingOptions {
   double below_mps = 0.0;
   double below_radps = 0.02;
 };
 
-/// Whether an increment is laid along the chord of its exact arc, or is as long as the arc (the 2012
+/// Whether an increment has the length of the chord of its arc (exact), or of the arc itself (the 2012
 /// article's k = 1).
 enum class ArcModel { kExact, kArticle };
 

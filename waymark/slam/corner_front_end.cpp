@@ -59,7 +59,9 @@ std::vector<std::string> CornerFrontEnd::notes(std::span<const Innovation> /*inn
   if (counts.unusable > 0)
     lines.push_back(concat(counts.unusable, " images show nothing: black, white or covered"));
   if (counts.out_of_budget > 0)
-    lines.push_back(concat(counts.out_of_budget, " images in which something was left out for want of time"));
+    lines.push_back(
+        concat(counts.out_of_budget,
+               " images in which searches were postponed for lack of time (tracker.frame_budget_ms)"));
   return lines;
 }
 

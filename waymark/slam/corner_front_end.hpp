@@ -10,7 +10,8 @@
 
 namespace waymark {
 
-/// What a camera sees, brought to a filter over pixels: the filter says where to look, the tracker looks.
+/// Camera front end of a filter over pixels: the filter predicts where landmarks are in the image, the
+/// tracker searches for them there.
 class CornerFrontEnd final : public FrontEnd {
  public:
   /// `filter` must outlive it. `threads` as in vision::Tracker.

@@ -16,8 +16,9 @@
 
 namespace waymark {
 
-/// What looks into images for a filter. The pipeline announces each image that fits as soon as it
-/// arrives, and then either has it seen when the filter has reached its stamp or drops it.
+/// Interface of what finds observations in images for a filter. The pipeline announces each image that
+/// fits as soon as it arrives; when the filter has reached its stamp, it requests the observations or
+/// drops the image.
 class FrontEnd {
  public:
   using SharedImage = std::shared_ptr<const GreyImage>;

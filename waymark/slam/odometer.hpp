@@ -11,7 +11,7 @@
 
 namespace waymark {
 
-/// What odometry is told in.
+/// Kind of odometry in a log.
 enum class OdometryKind { kWheels, kVelocity, kSteering, kPose };
 
 /// Any odometry that this program can turn into motion.

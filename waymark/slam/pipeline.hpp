@@ -31,12 +31,12 @@ struct Step {
   Duration cpu{0};  ///< of this thread, where something was observed: from prediction to correction
 };
 
-/// Puts events in order of their stamps, turns odometry into motion up to the stamp of what is observed,
-/// hands all observations of one stamp to the filter as one batch, and goes on over gaps. Events of a file
-/// are pushed and may arrive late by up to the reordering window; live ones are held, and processed until
-/// each stream's horizon, so that no pose waits longer than it must. Images go to the front end where there
-/// is one, which may begin with them as soon as they arrive; an image that shows what cannot be, or nothing
-/// new, is passed over and the robot goes on by dead reckoning. Truth is not its business and is ignored.
+/// Sorts events by stamp, integrates odometry up to the stamp of each scan, passes all observations of
+/// one stamp to the filter as one batch, and continues over gaps. Events of a file are pushed and may
+/// arrive late by up to the reordering window; live ones are held, and processed up to the horizon of
+/// each stream, so that no pose waits longer than it must. Images go to the front end, if there is one,
+/// which may start on them as soon as they arrive; an image of the wrong size, or one that repeats the
+/// one before, is skipped. Ground truth is ignored.
 class Pipeline {
  public:
   using Sink = std::function<void(const Step&)>;

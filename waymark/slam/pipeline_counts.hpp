@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// What was not used, and why.
+/// Counts of events and observations that were not used, by reason.
 struct PipelineCounts {
   std::int64_t events = 0;
   std::int64_t observations = 0;

@@ -93,7 +93,7 @@ class BagSource final : public Source {
   void take(const Message& message) {
     PlannedTopic& topic = plan_.used.at(message.topic);
     auto read = topic.reader.decoder.decode(message.bytes);
-    if (!read) return skip(message, "that do not fit their definition", read.error().message);
+    if (!read) return skip(message, "that do not match their message definition", read.error().message);
     const auto stamp = stamp_of(message, topic);
     if (!stamp) return;
     auto content = topic.reader.content(topic.reader.decoder);
@@ -104,20 +104,20 @@ class BagSource final : public Source {
   std::optional<Stamp> stamp_of(const Message& message, const PlannedTopic& topic) {
     const auto of_header = by_header_ ? topic.reader.stamp() : std::nullopt;
     if (by_header_ && topic.reader.has_header && !of_header && message.recorded != Stamp{})
-      tally_.count(fmt::format("messages of {} without a stamp in the header, at the time of recording",
-                               name(message)));
+      tally_.count(fmt::format(
+          "messages of {} without a stamp in the header, placed at their time of recording", name(message)));
     if (!of_header) return message.recorded;
     if (jumps_[message.topic].accept(*of_header - message.recorded)) return of_header;
-    tally_.count(fmt::format(
-        "messages of {} skipped whose stamp jumps by more than 10 s against the time of recording "
-        "(input.stamps=recorded uses that)",
-        name(message)));
+    tally_.count(
+        fmt::format("messages of {} skipped whose stamp jumps by more than 10 s relative to the time of "
+                    "recording (input.stamps=recorded uses the latter)",
+                    name(message)));
     return std::nullopt;
   }
 
   void add(Event event, int order) {
     if (given_ && event.stamp < *given_) {
-      tally_.count("messages skipped that come more than 5 s after others of later stamps");
+      tally_.count("messages skipped that are recorded more than 5 s after messages with later stamps");
       return;
     }
     newest_ = std::max(newest_, event.stamp);

@@ -80,7 +80,7 @@ bool BufferedStream::at_end() { return begin_ == end_ && !fill(1); }
 std::optional<std::string_view> BufferedStream::take(std::uint64_t count) {
   if (end_ - begin_ < count) {
     if (count > kLargestPiece) {
-      problem_ = fmt::format("a piece of {} bytes; more than {} are not believed", count, kLargestPiece);
+      problem_ = fmt::format("a piece of {} bytes, but at most {} are plausible", count, kLargestPiece);
       return std::nullopt;
     }
     if (!fill(static_cast<std::size_t>(count))) {

@@ -31,10 +31,9 @@ Result<Distortion> read_distortion(std::string_view model, std::span<const doubl
   const bool does_nothing = std::ranges::all_of(D, [](double d) { return d == 0.0; });
   if (does_nothing) return Distortion{};
   if (!is_plumb_bob || D.size() < 4 || !is_finite(D))
-    return Error{
-        fmt::format("its distortion_model {} with {} coefficients is none that this program knows; it knows "
-                    "plumb_bob with 4 or 5",
-                    in_quotes(model), D.size())};
+    return Error{fmt::format(
+        "its distortion_model {} with {} coefficients is not supported; only plumb_bob with 4 or 5 is",
+        in_quotes(model), D.size())};
   return Distortion{.k1 = D[0], .k2 = D[1], .p1 = D[2], .p2 = D[3], .k3 = D.size() > 4 ? D[4] : 0.0};
 }
 
@@ -46,7 +45,7 @@ Result<CameraOptions> read_camera_info(const Topic& topic, std::string_view byte
   if (auto done = message->decode(bytes); !done) return done.error();
   const auto K = message->numbers(2), P = message->numbers(4);
   if (K.size() != 9 || P.size() != 12 || !is_finite(K) || !is_finite(P))
-    return Error{"its matrices make no sense"};
+    return Error{"its matrices are not those of a camera"};
   CameraOptions camera{.width_px = static_cast<int>(std::min<std::uint32_t>(message->size(0), 1u << 20)),
                        .height_px = static_cast<int>(std::min<std::uint32_t>(message->size(1), 1u << 20)),
                        .fu_px = rectified ? P[0] : K[0],

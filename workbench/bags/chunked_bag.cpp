@@ -47,7 +47,7 @@ void ChunkedBag::take_index() {
 void ChunkedBag::look_through() {
   add_note(
       notes_,
-      name_ + ": has no index, as when recording breaks off: read from start to end to see what is in it");
+      name_ + ": has no index, because recording was cut off; the whole file was read to find its content");
   rewind({});
   while (const auto message = next_of_any_topic()) {
     ++summary_.topics[message->topic].messages;
@@ -93,7 +93,7 @@ std::optional<Message> ChunkedBag::take(Record record) {
   if (const auto* message = std::get_if<MessageRecord>(&record)) {
     if (const auto place = places_.find(message->id); place != places_.end())
       return Message{place->second, message->recorded, message->bytes};
-    add_note(notes_, fmt::format("{}: messages skipped of topic number {}, which the bag does not describe",
+    add_note(notes_, fmt::format("{}: messages of topic number {} skipped, which the bag does not describe",
                                  name_, message->id));
   } else if (auto* topic = std::get_if<TopicRecord>(&record)) {
     add_topic(std::move(*topic));
@@ -140,7 +140,7 @@ void ChunkedBag::enter(const ChunkRecord& chunk) {
   chunk_end_ = begin + std::min(chunk.packed_size, left);
   auto unpacked = decompressed(chunk.compression, std::make_unique<FileSection>(file_, begin, chunk_end_));
   if (!unpacked) {
-    note_damage(fmt::format("compressed by '{}', which this program does not know", chunk.compression));
+    note_damage(fmt::format("compressed by '{}', which is not supported", chunk.compression));
     in_chunk_ = true;
     at_end_ = !go_on();
     return;
@@ -157,8 +157,8 @@ void ChunkedBag::leave() {
 
 void ChunkedBag::note_damage(const std::string& what) {
   add_note(notes_,
-           fmt::format("{}: {} at byte {} of {} is damaged or cut off ({}); what comes before is used", name_,
-                       in_chunk_ ? "the chunk" : "the record", record_position_, file_->size(), what));
+           fmt::format("{}: {} at byte {} of {} is damaged or cut off ({}); only what comes before is used",
+                       name_, in_chunk_ ? "the chunk" : "the record", record_position_, file_->size(), what));
 }
 
 double ChunkedBag::progress() const {

@@ -140,7 +140,7 @@ class Checked final : public ByteStream {
     const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(left_, into.size()));
     auto count = stream_->read(into.first(most));
     if (!count) return count;
-    if (*count == 0) return Error{fmt::format("it holds {} bytes less than the {} promised", left_, size_)};
+    if (*count == 0) return Error{fmt::format("it has {} bytes less than the {} stated", left_, size_)};
     left_ -= *count;
     if (expected_) crc_ = crc32_z(crc_, reinterpret_cast<const Bytef*>(into.data()), *count);
     return count;
@@ -158,8 +158,8 @@ class Checked final : public ByteStream {
     char more = 0;
     auto count = stream_->read({&more, 1});
     if (!count) return count;
-    if (*count > 0) return Error{fmt::format("it holds more than the {} bytes promised", size_)};
-    if (expected_ && crc_ != *expected_) return Error{"its checksum is wrong: what it held may be damaged"};
+    if (*count > 0) return Error{fmt::format("it has more than the {} bytes stated", size_)};
+    if (expected_ && crc_ != *expected_) return Error{"its checksum is wrong, so its content may be damaged"};
     return std::size_t{0};
   }
 

@@ -51,7 +51,7 @@ class ToObservations {
     const auto ids = message.numbers(2), x = message.numbers(3), y = message.numbers(4),
                z = message.numbers(5);
     if (ids.size() != x.size() || x.size() != y.size() || y.size() != z.size())
-      return Error{"it has not as many identities as places"};
+      return Error{"its numbers of identities and poses differ"};
     Observations observations;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const Eigen::Vector3d p_sensor = R_sensor_camera_ * Eigen::Vector3d(x[i], y[i], z[i]);
@@ -75,7 +75,7 @@ constexpr std::string_view kOutlines = "apriltag_msgs/AprilTagDetectionArray";
 Result<EventContent> to_outlines(const MessageDecoder& message) {
   const auto ids = message.numbers(2), x = message.numbers(3), y = message.numbers(4);
   if (x.size() != 4 * ids.size() || y.size() != x.size())
-    return Error{"it has not four corners for each identity"};
+    return Error{"it does not have four corners for each identity"};
   MarkerOutlines outlines;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto id = identity_of(ids[i]);
@@ -95,8 +95,7 @@ bool is_detection(std::string_view type) {
 }
 
 Result<TopicReader> detection_reader(const Topic& topic, const CameraMount& mount) {
-  Error error{
-      fmt::format("{}: {} is no detection of markers that this program knows", topic.name, topic.type)};
+  Error error{fmt::format("{}: {} is not a supported type of marker detections", topic.name, topic.type)};
   for (const auto& [type, id, position] : kDetectionTypes) {
     if (type != topic.type) continue;
     auto numbers = below(position, {"x", "y", "z"});

@@ -85,8 +85,7 @@ Result<GreyImage> to_grey(RawImage raw, std::string_view encoding, bool is_bigen
   const auto found = std::ranges::find(kLayouts, encoding, &PixelLayout::encoding);
   const bool is_mosaic = encoding.starts_with("bayer_") && encoding.ends_with("8");
   if (found == kLayouts.end() && !is_mosaic)
-    return Error{
-        fmt::format("its encoding {} is none that this program knows as an image", in_quotes(encoding))};
+    return Error{fmt::format("its image encoding {} is not supported", in_quotes(encoding))};
   PixelLayout layout = is_mosaic ? kLayouts[0] : *found;
   if (encoding == "mono16" && is_bigendian) layout.red = layout.green = layout.blue = 0;
   if (raw.width_px < 1 || raw.height_px < 1 || raw.width_px > kMaxImageSide_px ||

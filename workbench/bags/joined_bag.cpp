@@ -69,7 +69,7 @@ class JoinedBag final : public Reader {
       message->topic = places_[part_][message->topic];
       if (!packed_ || unpack(*message)) return message;
       add_note(notes_,
-               fmt::format("messages of {} skipped that are no zstd frames, as metadata.yaml says they are",
+               fmt::format("messages of {} skipped that are not zstd frames, although metadata.yaml says so",
                            summary_.topics[message->topic].name));
     }
     return std::nullopt;

@@ -102,7 +102,7 @@ class McapFormat final : public RecordFormat {
     const auto head = take_head(stream);
     if (!head) return Error{stream.problem()};
     auto record = read_content(*head, stream);
-    if (!record && record.error().message.empty()) return Error{"its record makes no sense"};
+    if (!record && record.error().message.empty()) return Error{"its record is damaged"};
     return record;
   }
 
@@ -243,7 +243,7 @@ Result<std::unique_ptr<Reader>> open_mcap(const std::filesystem::path& path) {
   const auto magic = (*file)->front(kMcapMagic.size());
   if (!magic) return Error{path.string() + ": " + magic.error().message};
   if (*magic != kMcapMagic)
-    return Error{fmt::format("{}: an MCAP file of version {}; this program reads version 0", path.string(),
+    return Error{fmt::format("{}: an MCAP file of version {}; only version 0 is supported", path.string(),
                              magic->substr(kAnyMcap.size(), 1))};
   auto index = read_index(*file);
   return std::unique_ptr<Reader>(std::make_unique<ChunkedBag>(

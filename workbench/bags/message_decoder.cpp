@@ -63,12 +63,12 @@ class MessageDecoder::Walk {
         steps_left_(4096 + 8 * bytes.size()) {}
 
   Result<void> run() {
-    if (is_cdr_ && !take_encapsulation()) return Error{"it does not begin as plain CDR does"};
+    if (is_cdr_ && !take_encapsulation()) return Error{"it does not start with a header of plain CDR"};
     if (!message(decoder_.nodes_, false))
-      return Error{fmt::format("its {} bytes end, or make no sense, at byte {}, field {}", bytes_.size(), at_,
-                               field_)};
+      return Error{
+          fmt::format("its {} bytes end or are invalid at byte {}, field {}", bytes_.size(), at_, field_)};
     if (bytes_.size() - at_ > (is_cdr_ ? kMaxPadding : 0))
-      return Error{fmt::format("it has {} bytes, and by its definition only {}", bytes_.size(), at_)};
+      return Error{fmt::format("it has {} bytes, but only {} by its definition", bytes_.size(), at_)};
     return {};
   }
 
@@ -172,8 +172,8 @@ Result<MessageDecoder> MessageDecoder::make(const Topic& topic, const WantedFiel
   const auto assign_all = [&](const std::vector<std::string>& paths, bool is_text) -> Result<void> {
     for (std::size_t i = 0; i < paths.size(); ++i)
       if (!assign(decoder.nodes_, paths[i], static_cast<int>(i), is_text))
-        return Error{fmt::format("{}: the definition of {} that the bag holds has no {} {}", topic.name,
-                                 topic.type, is_text ? "text" : "number", paths[i])};
+        return Error{fmt::format("{}: the definition of {} in the bag has no {} {}", topic.name, topic.type,
+                                 is_text ? "text" : "number", paths[i])};
     return {};
   };
   if (auto done = assign_all(wanted.numbers, false); !done) return done.error();

@@ -94,9 +94,9 @@ class Parser {
 
   Result<std::vector<Field>> fields_of(const std::string& type) {
     const std::string_view text = text_of(type);
-    if (!text.data()) return error(fmt::format("lacks that of {}", type));
+    if (!text.data()) return error(fmt::format("does not include that of {}", type));
     if (std::ranges::find(path_, type) != path_.end() || path_.size() > kDeepest)
-      return error(fmt::format("goes round in a circle at {}", type));
+      return error(fmt::format("contains itself at {}", type));
     path_.push_back(type);
     auto fields = read_lines(text, package_of(type));
     path_.pop_back();

@@ -91,7 +91,7 @@ Result<TopicReader> joint_reader(const Topic& topic, const WheelJoints& joints) 
                   if (left_rad && right_rad) return EventContent(WheelAngles{*left_rad, *right_rad});
                   return Error{
                       fmt::format("it has no positions of the joints {} and {} (input.left_joint and "
-                                  "input.right_joint name others)",
+                                  "input.right_joint can name others)",
                                   joints.left.empty() ? "*left*wheel*" : joints.left,
                                   joints.right.empty() ? "*right*wheel*" : joints.right)};
                 });

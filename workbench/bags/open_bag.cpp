@@ -39,10 +39,10 @@ Result<std::unique_ptr<Reader>> open_bag_file(const fs::path& path) {
   if (is_sqlite(magic)) return open_sqlite_bag(path);
   if (path.extension() == ".zstd")
     return Error{
-        fmt::format("{}: compressed as a whole; `zstd -d {}` unpacks it, then give the file that it makes",
+        fmt::format("{}: compressed as a whole; unpack it by `zstd -d {}` and give the resulting file",
                     path.string(), path.string())};
   return Error{fmt::format("{}: {}; expected a ROS 1 bag, an MCAP file or the .db3 file of a ROS 2 bag",
-                           path.string(), magic.empty() ? "is empty" : "is no bag")};
+                           path.string(), magic.empty() ? "is empty" : "is not a bag")};
 }
 
 /// What a metadata.yaml says about the files beside it.
@@ -111,7 +111,7 @@ Result<std::unique_ptr<Reader>> open_bag_folder(const fs::path& folder) {
   }
   if (parts.empty())
     return Error{notes.empty()
-                     ? fmt::format("{}: {} names no files in relative_file_paths", folder.string(), kMetadata)
+                     ? fmt::format("{}: {} lists no files in relative_file_paths", folder.string(), kMetadata)
                      : notes[0]};
   return join_bags(std::move(parts), metadata->packed_messages, std::move(notes));
 }

@@ -56,7 +56,7 @@ class Fields {
   std::string_view bytes_;
 };
 
-Error no_record(std::string_view why) { return {fmt::format("no record: {}", why)}; }
+Error no_record(std::string_view why) { return {fmt::format("not a record: {}", why)}; }
 
 /// The length of what comes next, and that many bytes.
 Result<std::string_view> take_counted(BufferedStream& stream) {
@@ -118,7 +118,7 @@ class Ros1Format final : public RecordFormat {
         return Record(OtherRecord{});
       }
     }
-    return no_record("it does not say of what kind it is");
+    return no_record("its kind (op) is missing");
   }
 };
 
@@ -203,9 +203,8 @@ Result<std::unique_ptr<Reader>> open_ros1_bag(const std::filesystem::path& path)
   const auto magic = (*file)->front(kRos1Magic.size());
   if (!magic) return Error{path.string() + ": " + magic.error().message};
   if (*magic != kRos1Magic)
-    return Error{
-        fmt::format("{}: a ROS bag of version {}; this program reads 2.0 (`rosbag migrate` converts)",
-                    path.string(), magic->substr(kAnyRosBag.size(), 3))};
+    return Error{fmt::format("{}: a ROS bag of version {}; only 2.0 is supported (`rosbag migrate` converts)",
+                             path.string(), magic->substr(kAnyRosBag.size(), 3))};
   const auto head = read_head(*file);
   if (!head)
     return Error{fmt::format("{}: an empty or damaged ROS bag: its first record is missing", path.string())};

@@ -30,7 +30,7 @@ std::optional<std::string> missing_bytes(const std::filesystem::path& path) {
   const std::uint64_t expected =
       (page == 1 ? 65536U : page) * std::uint64_t{load<std::uint32_t>(head.data() + 28, std::endian::big)};
   if ((*file)->size() >= expected) return std::nullopt;
-  return fmt::format("{}: damaged or cut off: {} of {} bytes are there; what can be found in them is used",
+  return fmt::format("{}: damaged or cut off: only {} of {} bytes exist; what can be read of them is used",
                      path.filename().string(), (*file)->size(), expected);
 }
 
@@ -132,8 +132,9 @@ class SqliteBag final : public Reader {
   /// Why a query ended before its last row, if it did.
   void note_damage(const SqliteRows& rows) {
     if (!rows.problem().empty())
-      add_note(notes_, fmt::format("{}: damaged or cut off behind message {} ({}); what comes before is used",
-                                   name_, row_, rows.problem()));
+      add_note(notes_,
+               fmt::format("{}: damaged or cut off after message {} ({}); only what comes before is used",
+                           name_, row_, rows.problem()));
   }
 
   std::string name_;
@@ -155,7 +156,7 @@ Result<std::unique_ptr<Reader>> open_sqlite_bag(const std::filesystem::path& pat
   if (!file) return file.error();
   auto bag = std::make_unique<SqliteBag>(path, *std::move(file));
   if (const auto problem = bag->look_through())
-    return Error{fmt::format("{}: no ROS 2 bag, or a damaged one: {}", path.string(), *problem)};
+    return Error{fmt::format("{}: not a ROS 2 bag, or a damaged one: {}", path.string(), *problem)};
   return std::unique_ptr<Reader>(std::move(bag));
 }
 

@@ -77,10 +77,10 @@ bool SqliteRows::next() {
   if (!statement_) return false;
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_DONE) return end("");
-  if (code == SQLITE_INTERRUPT) return end("its pages lead to more rows than it can hold");
+  if (code == SQLITE_INTERRUPT) return end("its pages refer to more rows than it can hold");
   if (code != SQLITE_ROW) return end(sqlite3_errmsg(database_));
   const std::uint64_t bytes = row_bytes();
-  if (bytes > budget_->bytes) return end("its rows hold more than the file");
+  if (bytes > budget_->bytes) return end("its rows are larger than the file");
   budget_->bytes -= bytes;
   return true;
 }
@@ -140,7 +140,7 @@ Result<SqliteFile> SqliteFile::open(const fs::path& path) {
   if (log > 0) static_cast<void>(file.query(kAlone).next());
   if (size_of(real, "-journal") > 0)
     file.note_ =
-        "it was being changed when its recorder was ended (a -journal lies beside it); what is in it is used";
+        "its recorder was stopped while writing (there is a -journal beside it); what is in it is used";
   return file;
 }
 
@@ -151,7 +151,7 @@ std::optional<std::string> SqliteFile::table_problem(std::string_view table) con
   constexpr int kHidden = 6;
   auto columns = query(fmt::format("PRAGMA table_xinfo({})", table));
   while (columns.next())
-    if (columns.integer(kHidden) != 0) return fmt::format("table {} has columns that are computed", table);
+    if (columns.integer(kHidden) != 0) return fmt::format("table {} has computed columns", table);
   return columns.problem().empty() ? std::nullopt : std::optional(columns.problem());
 }
 

@@ -105,7 +105,7 @@ class Planner {
     bag_.rewind(std::move(wanted));
     while (const auto message = bag_.next()) {
       frames_.add(topics()[message->topic], message->bytes);
-      uses_[message->topic] = "places of the frames";
+      uses_[message->topic] = "transforms between frames";
     }
   }
 
@@ -119,7 +119,7 @@ class Planner {
     if (found != places.end()) return std::vector{*found};
     std::vector<std::string> names;
     for (const std::size_t place : places) names.push_back(topics()[place].name);
-    return Error{fmt::format("{}: {}: the bag has no topic {} with {}; it can be {}", plan_.info.name,
+    return Error{fmt::format("{}: {}: the bag has no topic {} with {}; possible are {}", plan_.info.name,
                              role.key, named, role.what,
                              names.empty() ? kNone : fmt::format("{}", fmt::join(names, ", ")))};
   }
@@ -161,7 +161,7 @@ class Planner {
     for (const std::size_t place : places)
       if (place != chosen && !uses_.contains(place)) others.push_back(topics()[place].name);
     if (!others.empty())
-      plan_.notes.push_back(fmt::format("{}: {} is used, not {}; {} chooses", role.what,
+      plan_.notes.push_back(fmt::format("{}: {} is used, not {}; set {} to change that", role.what,
                                         topics()[chosen].name, fmt::join(others, ", "), role.key));
   }
 
@@ -177,11 +177,10 @@ class Planner {
       robot_frame_ = read_frame(topic, first_[**place], "child_frame_id");
     if (topic.type == "geometry_msgs/Twist")
       plan_.notes.push_back(topic.name +
-                            " has no stamps and may be what was commanded, not what the robot did");
+                            " has no stamps and may contain commands instead of measured motion");
     if (topic.type == "sensor_msgs/JointState")
       plan_.notes.emplace_back(
-          "the bag does not say how large the wheels are: check wheels.left_radius_m, "
-          "wheels.right_radius_m and wheels.track_m");
+          "the bag has no wheel sizes: check wheels.left_radius_m, wheels.right_radius_m and wheels.track_m");
     return {};
   }
 
@@ -213,12 +212,11 @@ class Planner {
       take_camera((*places)[0], images);
     } else if (!images.empty()) {
       plan_.notes.push_back(fmt::format(
-          "{}: {} describes it: `waymark calibrate camera PHOTOS -o camera` makes a file that does, for "
-          "--set "
-          "input.camera_file=camera/camera.yaml",
+          "{}: the camera is not calibrated ({}): `waymark calibrate camera PHOTOS -o camera` writes a "
+          "calibration, for --set input.camera_file=camera/camera.yaml",
           images,
           places->empty() ? fmt::format("no {}", kCameraInfo)
-                          : "several cameras are described, and input.camera_info_topic does not say which"));
+                          : "there are several CameraInfo topics; choose one by input.camera_info_topic"));
     }
     return {};
   }
@@ -233,9 +231,8 @@ class Planner {
       uses_[place] = "the camera";
     } else {
       plan_.notes.push_back(
-          fmt::format("{} does not say what the camera is like: {}; `waymark calibrate camera "
-                      "PHOTOS -o camera` makes a file that says it, for --set "
-                      "input.camera_file=camera/camera.yaml",
+          fmt::format("{} has no usable camera calibration: {}; `waymark calibrate camera PHOTOS -o camera` "
+                      "writes one, for --set input.camera_file=camera/camera.yaml",
                       topics()[place].name, camera.error().message));
     }
   }
@@ -294,11 +291,10 @@ class Planner {
     add_setting("sensor.y_m", mount.y_m);
     add_setting("sensor.yaw_deg", mount.yaw_deg);
     if (!mount_)
-      plan_.notes.push_back(
-          fmt::format("no tf_static says where the camera {} sits on the robot: it is taken to look ahead "
-                      "from the robot's origin; "
-                      "camera.mount_x_m and its kind say otherwise",
-                      camera_frame_));
+      plan_.notes.push_back(fmt::format(
+          "no tf_static has the position of the camera {} on the robot; it is assumed at the robot's origin, "
+          "looking ahead; set camera.mount_x_m, camera.mount_yaw_deg etc. if it is not",
+          camera_frame_));
     return {};
   }
 
@@ -344,7 +340,7 @@ class Planner {
     plan_.info.only_pixels = has_images() && !has_detections_;
     if (!has_images() && !has_detections_ && !has_outlines_)
       plan_.notes.emplace_back(
-          "the bag shows no landmarks, in images or as detected markers: only dead reckoning");
+          "the bag has neither images nor detected markers: only dead reckoning is possible");
     std::vector<std::string> unused;
     for (std::size_t i = 0; i < topics().size(); ++i) {
       const auto& [name, type, encoding, definition, messages] = topics()[i];

@@ -42,7 +42,7 @@ Result<void> read_scans(const MatFile& file, std::vector<Event>& events) {
   if (!stamps) return stamps.error();
   const auto ranges_m = file.matrix("Laser", kBeams, "ranges m");
   if (!ranges_m) return ranges_m.error();
-  const auto intensities = file.matrix("Intensity", kBeams, "0 or how bright");
+  const auto intensities = file.matrix("Intensity", kBeams, "0 or intensity");
   if (!intensities) return intensities.error();
   if (auto same = check_rows(file, "Laser", ranges_m->rows(), stamps->size()); !same) return same;
   if (auto same = check_rows(file, "Intensity", intensities->rows(), stamps->size()); !same) return same;

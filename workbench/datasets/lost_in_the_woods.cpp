@@ -55,7 +55,7 @@ Result<void> check(const Columns& c, const std::string& where) {
   constexpr double kLatest_s = 9e9;
   for (Eigen::Index row = 0; row < c.t.rows(); ++row) {
     if (std::abs(c.t(row, 0)) >= kLatest_s)
-      return Error{fmt::format("{}: variable t: row {} is no time in seconds", where, row + 1)};
+      return Error{fmt::format("{}: variable t: row {} is not a time in seconds", where, row + 1)};
     if (row > 0 && c.t(row, 0) < c.t(row - 1, 0))
       return Error{fmt::format("{}: variable t: row {} goes back in time", where, row + 1)};
     if (c.r.row(row).minCoeff() < 0.0)
@@ -95,11 +95,11 @@ Result<LogInfo> read_info(const MatFile& file) {
   auto settings = known_settings("lost-in-the-woods");
   if (!settings) return settings.error();
   info.settings = *std::move(settings);
-  const auto ahead_m = file.matrix("d", 1, "laser ahead of the robot m");
+  const auto ahead_m = file.matrix("d", 1, "distance of the laser ahead of the robot m");
   if (!ahead_m) return ahead_m.error();
-  if (ahead_m->rows() != 1) return Error{file.path().string() + ": variable d is not one number"};
+  if (ahead_m->rows() != 1) return Error{file.path().string() + ": variable d must be a single number"};
   info.settings.emplace_back("sensor.x_m", fmt::format("{}", (*ahead_m)(0, 0)));
-  const auto places = file.matrix("l", 2, "x m, y m of the tubes");
+  const auto places = file.matrix("l", 2, "x m, y m of the landmarks");
   if (!places) return places.error();
   for (Eigen::Index row = 0; row < places->rows(); ++row)
     info.landmarks.push_back({tube(row), (*places)(row, 0), (*places)(row, 1), 0.0});

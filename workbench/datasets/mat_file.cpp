@@ -63,7 +63,7 @@ Result<MatFile> MatFile::open(const std::filesystem::path& path) {
   if (!bytes) return bytes.error();
   if (auto checked = check_mat_structure(*bytes, path.string()); !checked) return checked.error();
   const MatHandle file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
-  if (!file) return Error{path.string() + ": is no MATLAB file that can be read"};
+  if (!file) return Error{path.string() + ": is not a MATLAB file that can be read"};
   MatFile content;
   content.path_ = path;
   while (true) {

@@ -115,13 +115,13 @@ std::optional<std::string> take_head(std::string_view& rest, ArrayHead& head) {
 /// The numbers of a plain matrix: what is wrong with them, if anything.
 std::optional<std::string> fault_of_numbers(const ArrayHead& head, std::string_view rest) {
   if (head.array_class() != kDoubleClass || !head.is_plane() || (head.flags & kComplexFlag) != 0)
-    return "which is no plain matrix of numbers";
+    return "which is not a matrix of real numbers";
   const auto numbers = take_element(rest);
   if (!numbers || number_bytes(numbers->type) == 0 ||
       head.count() != numbers->data.size() / number_bytes(numbers->type) ||
       numbers->data.size() % number_bytes(numbers->type) != 0)
-    return "with another number of values than it claims";
-  if (!rest.empty()) return "with something behind its values";
+    return "whose number of values is not the one stated";
+  if (!rest.empty()) return "with extra data after its values";
   return std::nullopt;
 }
 
@@ -130,13 +130,13 @@ std::optional<std::string> fault_of_cells(const ArrayHead& array, std::string_vi
   std::uint64_t count = 0;
   for (; !rest.empty(); ++count) {
     auto cell = take_element(rest);
-    if (!cell || cell->type != kMatrix) return "with a cell that is no matrix";
+    if (!cell || cell->type != kMatrix) return "with a cell that is not a matrix";
     ArrayHead head;
     if (auto fault = take_head(cell->data, head)) return "with a cell that has " + *fault;
     if (!head.name.empty()) return "with a cell that has a name";
     if (auto fault = fault_of_numbers(head, cell->data)) return "with a cell " + *fault;
   }
-  if (!array.is_plane() || count != array.count()) return "with another number of cells than it claims";
+  if (!array.is_plane() || count != array.count()) return "whose number of cells is not the one stated";
   return std::nullopt;
 }
 
@@ -157,7 +157,7 @@ std::optional<std::string> fault_of_packed(std::string_view packed) {
   if (!unpacked) return "compressed data that is damaged or larger than 256 MB";
   std::string_view rest = *unpacked;
   const auto element = take_element(rest);
-  if (!element || element->type != kMatrix || !rest.empty()) return "compressed data that is no variable";
+  if (!element || element->type != kMatrix || !rest.empty()) return "compressed data that is not a variable";
   return fault_of_matrix(element->data);
 }
 
@@ -166,7 +166,7 @@ std::optional<std::string> fault_of_header(std::string_view bytes) {
   constexpr std::string_view kVersionAndOrder{"\x00\x01IM", 4};
   if (bytes.starts_with("MATLAB 7.3")) return "level 7.3; save it as level 5 (-v7)";
   if (bytes.size() < kHeaderBytes || !bytes.starts_with(kMagic)) return "no header of a level 5 file";
-  if (bytes.substr(kHeaderBytes - 4, 4) != kVersionAndOrder) return "another version or byte order";
+  if (bytes.substr(kHeaderBytes - 4, 4) != kVersionAndOrder) return "unsupported version or byte order";
   return std::nullopt;
 }
 
@@ -174,12 +174,12 @@ std::optional<std::string> fault_of_header(std::string_view bytes) {
 
 Result<void> check_mat_structure(std::string_view bytes, const std::string& name) {
   if (const auto fault = fault_of_header(bytes))
-    return Error{fmt::format("{}: is no MATLAB file that can be read: {}", name, *fault)};
+    return Error{fmt::format("{}: is not a MATLAB file that can be read: {}", name, *fault)};
   std::string_view rest = bytes.substr(kHeaderBytes);
   while (!rest.empty()) {
     const std::size_t position = bytes.size() - rest.size();
     const auto element = take_element(rest);
-    std::optional<std::string> fault = "an element that ends behind the end of the file";
+    std::optional<std::string> fault = "an element that ends after the end of the file";
     if (element && element->type == kMatrix)
       fault = fault_of_matrix(element->data);
     else if (element && element->type == kCompressed)

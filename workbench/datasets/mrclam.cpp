@@ -53,7 +53,7 @@ Result<Subjects> read_barcodes(const fs::path& file) {
     const int subject = table->integer(0);
     const auto [known, is_new] = subjects.emplace(table->integer(1), subject);
     if (!is_new)
-      table->fail(fmt::format("barcode {} is already that of subject {}", known->first, known->second));
+      table->fail(fmt::format("barcode {} already belongs to subject {}", known->first, known->second));
   }
   if (table->error()) return *table->error();
   return subjects;
@@ -99,7 +99,7 @@ EventStream::ReadRow read_observation(Subjects subjects) {
     if (value.range_m < 0.0) row.fail(fmt::format("range {} m; a range cannot be negative", value.range_m));
     const auto subject = subjects.find(barcode);
     if (subject == subjects.end()) {
-      tally.count(fmt::format("observations skipped of barcode {}, which is in no table", barcode));
+      tally.count(fmt::format("observations of barcode {} skipped, which is in no table", barcode));
       return std::nullopt;
     }
     if (subject->second <= kLastRobotSubject) {
@@ -179,12 +179,12 @@ std::vector<std::string> put_right(const fs::path& folder, const MrclamOptions& 
   std::vector<std::string> notes;
   if (options.fix_known_errors && fix_dataset_1(info.landmarks))
     notes.emplace_back(
-        "landmarks 11 and 17, published exchanged in dataset 1, were put right (input.fix_known_errors)");
+        "landmarks 11 and 17, which are published exchanged in dataset 1, were corrected "
+        "(input.fix_known_errors)");
   if (is_truth_rounded(folder, options.robot))
-    notes.push_back(
-        base_name(rounded_truth(folder, options.robot)) +
-        ": stamps rounded to whole seconds were rebuilt, the rows of a second spread evenly over it; "
-        "the first and last second are left out");
+    notes.push_back(base_name(rounded_truth(folder, options.robot)) +
+                    ": stamps are rounded to whole seconds; the rows of a second were spread evenly over it, "
+                    "and the first and last second left out");
   return notes;
 }
 
@@ -196,8 +196,8 @@ bool is_mrclam(const fs::path& folder) {
 
 Result<std::unique_ptr<Source>> open_mrclam(const fs::path& folder, const MrclamOptions& options) {
   if (const auto robots = robots_in(folder); !robots.contains(options.robot))
-    return Error{fmt::format("{}: there is no robot {}; input.robot can be {}", folder.string(),
-                             options.robot, fmt::join(robots, ", "))};
+    return Error{fmt::format("{}: no robot {}; input.robot can be {}", folder.string(), options.robot,
+                             fmt::join(robots, ", "))};
   auto info = read_info(folder, options.robot);
   if (!info) return info.error();
   auto streams = open_streams(folder, options.robot);

@@ -129,7 +129,7 @@ Result<Settings> read_camera(const fs::path& file) {
   if (!is_pinhole(*K)) return lines->error("the camera matrix must be fu 0 cu, 0 fv cv, 0 0 1");
   const auto T = read_matrix<4>(*lines, "cam_transform:");
   if (!T) return T.error();
-  if (!is_rigid(*T)) return lines->error("cam_transform must be a rotation and a place: R t, 0 0 0 1");
+  if (!is_rigid(*T)) return lines->error("cam_transform must be a rotation and a translation: R t, 0 0 0 1");
   std::array<double, 4> values{};
   const std::array keys{"z_near:", "z_far:", "width:", "height:"};
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -176,7 +176,7 @@ Result<Observations> read_points(const fs::path& file, int step) {
   if (!lines) return lines.error();
   const auto number = read_value(*lines, "seq:");
   if (!number) return number.error();
-  if (*number != step) return lines->error(fmt::format("is of step {}, not {}", *number, step));
+  if (*number != step) return lines->error(fmt::format("belongs to step {}, not {}", *number, step));
   for (const char* pose : {"gt_pose:", "odom_pose:"}) {
     const auto rest = read_key(*lines, pose);
     if (!rest) return rest.error();
@@ -210,7 +210,8 @@ Pose2 read_pose(TextTable& row, std::size_t column) {
 int read_step(TextTable& row, int last) {
   const int step = row.integer(0);
   if (step <= last || step > kLastStep)
-    row.fail(fmt::format("step {} must be above {} of the row before and at most {}", step, last, kLastStep));
+    row.fail(fmt::format("step {} must be above {}, that of the row before, and at most {}", step, last,
+                         kLastStep));
   return step;
 }
 
@@ -269,7 +270,7 @@ Result<std::unique_ptr<Source>> open_planar_mono_slam(const fs::path& folder, co
   std::vector<std::string> notes;
   if (noise.sigma_px > 0.0)
     notes.push_back(fmt::format(
-        "every point got noise of {} px, since the recorded ones have none (input.pixel_noise_px)",
+        "noise of {} px was added to every point, since the recorded ones have none (input.pixel_noise_px)",
         noise.sigma_px));
   return std::unique_ptr<Source>(
       std::make_unique<EventList>(*std::move(info), *std::move(events), std::move(notes)));

@@ -52,12 +52,12 @@ Result<void> check(const Run& run, const std::string& where) {
   for (const auto& [name, table] :
        {std::pair{"DR", &run.odometry}, std::pair{"TD", &run.ranges}, std::pair{"GT", &run.truth}})
     for (Eigen::Index row = 0; row < table->rows(); ++row)
-      if (std::abs((*table)(row, 0)) >= kLatest_s) return refuse(name, row, "is no time in seconds");
+      if (std::abs((*table)(row, 0)) >= kLatest_s) return refuse(name, row, "is not a time in seconds");
   for (Eigen::Index row = 1; row < run.odometry.rows(); ++row)
     if (run.odometry(row, 0) < run.odometry(row - 1, 0)) return refuse("DR", row, "goes back in time");
   for (Eigen::Index row = 0; row < run.ranges.rows(); ++row) {
     if (run.ranges(row, 3) < 0.0) return refuse("TD", row, "a range cannot be negative");
-    if (std::abs(run.ranges(row, 2)) > 1e6) return refuse("TD", row, "is no number of a beacon");
+    if (std::abs(run.ranges(row, 2)) > 1e6) return refuse("TD", row, "is not the number of a beacon");
   }
   return {};
 }
@@ -124,9 +124,9 @@ Result<std::unique_ptr<Source>> make_source(const Run& run, const std::string& w
   std::vector<std::string> notes;
   if (turn_round)
     notes.emplace_back(
-        "the robot drives backwards: its distances, published as positive, were taken as negative "
+        "the robot drives backwards: its distances, which are published as positive, were negated "
         "(input.fix_known_errors)");
-  if (out_of_order > 0) notes.push_back(fmt::format("ranges put in the order of time: {}", out_of_order));
+  if (out_of_order > 0) notes.push_back(fmt::format("ranges sorted by time: {}", out_of_order));
   return std::unique_ptr<Source>(
       std::make_unique<EventList>(*std::move(info), std::move(events), std::move(notes)));
 }

@@ -42,7 +42,7 @@ Result<std::vector<Second>> read_seconds(TextLines& lines) {
     const auto stamp = whole_second(lines, first_cell);
     if (!stamp) return stamp.error();
     if (!seconds.empty() && *stamp < seconds.back().stamp)
-      return lines.error("goes back in time; rows must be in the order of time");
+      return lines.error("goes back in time; rows must be sorted by time");
     if (seconds.empty() || *stamp != seconds.back().stamp) seconds.push_back({*stamp, {}});
     seconds.back().rows.push_back({lines.number(), cells});
   }

@@ -40,8 +40,7 @@ Result<MapState> read_survey(const std::filesystem::path& path, const MapState& 
   std::vector<Surveyed> rows;
   while (table->next()) {
     const Surveyed row = read_row(*table, map);
-    if (std::ranges::find(rows, row.id, &Surveyed::id) != rows.end())
-      table->fail("this id stands here twice");
+    if (std::ranges::find(rows, row.id, &Surveyed::id) != rows.end()) table->fail("this id is listed twice");
     rows.push_back(row);
   }
   if (table->error()) return *table->error();

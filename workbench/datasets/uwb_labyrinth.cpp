@@ -45,10 +45,10 @@ Result<Measured> parse(const TextLines& lines, const std::vector<LineLayout>& la
   std::string_view rest = lines.line();
   Measured measured{.kind = take_word(rest), .numbers = {}, .stamp = {}};
   const auto layout = std::ranges::find(layouts, measured.kind, &LineLayout::kind);
-  if (layout == layouts.end()) return lines.error(in_quotes(measured.kind) + " is no known kind of line");
+  if (layout == layouts.end()) return lines.error(in_quotes(measured.kind) + " is not a known kind of line");
   const std::string_view time = take_word(rest);
   const auto stamp = parse_stamp(time);
-  if (!stamp) return lines.error(in_quotes(time) + " is no time in seconds");
+  if (!stamp) return lines.error(in_quotes(time) + " is not a time in seconds");
   measured.stamp = *stamp;
   measured.numbers.push_back(to_seconds(*stamp));
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
@@ -107,7 +107,7 @@ Result<void> read_input(const fs::path& file, LogInfo& info, std::vector<Event>&
           return {};
         }
         if (m.numbers[1] < 0.0) return lines.error("a range cannot be negative");
-        if (std::abs(m.numbers[5]) > 1e6) return lines.error("is no number of an anchor");
+        if (std::abs(m.numbers[5]) > 1e6) return lines.error("is not the number of an anchor");
         const TrueLandmark anchor = anchor_of(m);
         if (std::ranges::find(info.landmarks, anchor.id, &TrueLandmark::id) == info.landmarks.end())
           info.landmarks.push_back(anchor);

@@ -42,7 +42,7 @@ Result<std::vector<Stamp>> read_stamps(const MatFile& file, std::string_view var
       return Error{
           fmt::format("{}: variable {}: value {} {}", file.path().string(), variable, row + 1, what)};
     };
-    if (std::abs(time_s) >= kLatest_s) return error("is no time");
+    if (std::abs(time_s) >= kLatest_s) return error("is not a time");
     stamps.push_back(stamp_from_seconds(time_s));
     if (row > 0 && stamps.back() < stamps[stamps.size() - 2]) return error("goes back in time");
   }

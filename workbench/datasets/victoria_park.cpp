@@ -52,17 +52,16 @@ Result<void> read_truck_steering(const MatFile& file, std::vector<Event>& events
 
 /// Nothing is added where there is no file. What a reader of the truth must know.
 Result<std::vector<std::string>> read_clean_fixes(const fs::path& path, std::vector<Event>& events) {
-  if (!fs::exists(path)) return std::vector<std::string>{"no aa3_gpsx.mat beside the log: no truth"};
+  if (!fs::exists(path))
+    return std::vector<std::string>{"no ground truth: aa3_gpsx.mat is missing beside the log"};
   const auto file = MatFile::open(path);
   if (!file) return file.error();
   const auto fixes = read_fixes(*file, "timeGps", kMillisecond_s, "Lo_m", "La_m");
   if (!fixes) return fixes.error();
   const auto clean = clean_fixes(*fixes);
   add_truth(clean, events);
-  return std::vector{
-      fmt::format("{} of {} positions by satellites left out of the truth: their neighbours do "
-                  "not confirm them",
-                  fixes->size() - clean.size(), fixes->size())};
+  return std::vector{fmt::format("{} of {} GPS positions left out of the ground truth as outliers",
+                                 fixes->size() - clean.size(), fixes->size())};
 }
 
 }  // namespace

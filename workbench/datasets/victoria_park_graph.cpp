@@ -128,12 +128,13 @@ Result<void> read_graph_line(const TextLines& lines, Graph& graph) {
   const std::string_view kind = take_word(rest);
   const bool is_odometry = kind == kOdometryLine.kind;
   if (!is_odometry && kind != kLandmarkLine.kind)
-    return lines.error(in_quotes(kind) + " is no known kind of line; expected ODOMETRY or LANDMARK");
+    return lines.error(in_quotes(kind) + " is not a known kind of line; expected ODOMETRY or LANDMARK");
   const auto numbers = read_numbers(rest, is_odometry ? kOdometryLine : kLandmarkLine, lines);
   if (!numbers) return numbers.error();
   if (is_odometry && !graph.add_odometry(*numbers))
     return lines.error("does not go from the last pose to a new one");
-  if (!is_odometry && !graph.add_landmark(*numbers)) return lines.error("is of an unknown pose or landmark");
+  if (!is_odometry && !graph.add_landmark(*numbers))
+    return lines.error("refers to an unknown pose or landmark");
   return {};
 }
 

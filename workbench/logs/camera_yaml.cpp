@@ -42,7 +42,8 @@ class Reader {
     if (data && data.IsSequence()) {
       for (const YAML::Node& item : data) {
         const auto value = item.IsScalar() ? parse_number(item.Scalar()) : std::nullopt;
-        if (!value || !std::isfinite(*value)) fail(item, fmt::format("{} holds what is not a number", key));
+        if (!value || !std::isfinite(*value))
+          fail(item, fmt::format("{} contains something that is not a number", key));
         values.push_back(value.value_or(0.0));
       }
     }
@@ -56,7 +57,7 @@ class Reader {
   void check_model() {
     const YAML::Node model = root_["distortion_model"];
     if (model && (!model.IsScalar() || (model.Scalar() != "plumb_bob" && !model.Scalar().empty())))
-      fail(model, "distortion_model is one that this program does not know; it knows plumb_bob");
+      fail(model, "distortion_model is not supported; only plumb_bob is");
   }
 
   void check_pinhole(const std::vector<double>& K) {
@@ -71,7 +72,7 @@ class Reader {
   YAML::Node find(const char* key) {
     const YAML::Node node = root_[key];
     if (!node && !error_)
-      error_ = Error{fmt::format("{}: {} is missing; this must be a ROS camera_info file", name_, key)};
+      error_ = Error{fmt::format("{}: {} is missing; expected a ROS camera_info file", name_, key)};
     return node;
   }
 

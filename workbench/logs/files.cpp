@@ -41,8 +41,9 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view cont
 Result<void> ensure_output_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) return system_error("make the folder", folder, failed.value());
-  if (!std::filesystem::is_directory(folder, failed)) return system_error("make the folder", folder, ENOTDIR);
+  if (failed) return system_error("create the folder", folder, failed.value());
+  if (!std::filesystem::is_directory(folder, failed))
+    return system_error("create the folder", folder, ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) return system_error("write into", folder, errno);
   return {};
 }

@@ -157,12 +157,14 @@ Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& name,
   const auto width_px = take_pgm_number(bytes);
   const auto height_px = take_pgm_number(bytes);
   const auto white = take_pgm_number(bytes);
-  if (!width_px || !height_px || !white) return damaged(name, "PGM", "no width, height and largest grey");
-  if (*white != 255) return damaged(name, "PGM", fmt::format("grey up to {}; expected 255", *white));
+  if (!width_px || !height_px || !white)
+    return damaged(name, "PGM", "width, height and maximum grey value are missing");
+  if (*white != 255)
+    return damaged(name, "PGM", fmt::format("the maximum grey value is {}; expected 255", *white));
   if (auto fits = check_size({*width_px, *height_px}, name, expected); !fits) return fits.error();
   GreyImage image(*width_px, *height_px);
   const auto pixels = static_cast<std::size_t>(*width_px) * static_cast<std::size_t>(*height_px);
-  if (bytes.size() < pixels + 1) return damaged(name, "PGM", "it breaks off");
+  if (bytes.size() < pixels + 1) return damaged(name, "PGM", "it is cut off");
   std::copy_n(bytes.data() + 1, pixels, image.data());
   return image;
 }
@@ -175,7 +177,7 @@ Result<GreyImage> decode_image(std::string_view bytes, const std::string& name,
   if (bytes.starts_with("\xFF\xD8")) return decode_jpeg(bytes, name, expected);
   if (bytes.starts_with("P5")) return decode_pgm(bytes, name, expected);
   return Error{fmt::format("{}: {}; expected a PNG, JPEG or PGM image", name,
-                           bytes.empty() ? "is empty" : "is no image that can be read")};
+                           bytes.empty() ? "is empty" : "is not an image that can be read")};
 }
 
 Result<GreyImage> read_image(const std::filesystem::path& path, std::optional<ImageSize> expected) {
@@ -193,7 +195,7 @@ Result<std::string> encode_png(const ImageView& image) {
   png_alloc_size_t size = bytes.size();
   const auto stride = static_cast<png_int_32>(image.stride);
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data, stride, nullptr) == 0)
-    return Error{fmt::format("cannot make a PNG image: {}", png.message), Error::Kind::kFailed};
+    return Error{fmt::format("cannot write a PNG image: {}", png.message), Error::Kind::kFailed};
   bytes.resize(size);
   return bytes;
 }

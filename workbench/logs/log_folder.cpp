@@ -48,7 +48,7 @@ std::optional<EventContent> read_truth_row(TextTable& row, Tally&) {
 LandmarkId read_id(TextTable& row, std::size_t column) {
   const int number = row.integer(column);
   if (number < 0)
-    row.fail(fmt::format("id {} is below 0; leave the cell empty where the landmark is unknown", number));
+    row.fail(fmt::format("id {} is below 0; leave the cell empty if the identity is unknown", number));
   return {LandmarkId::Family::kMarker, number};
 }
 
@@ -63,7 +63,7 @@ std::optional<Measurement> read_measurement(TextTable& row) {
   const bool has_bearing = !row.is_empty(3);
   const bool has_pixel = !row.is_empty(4) || !row.is_empty(5);
   if (has_pixel && (has_range || has_bearing))
-    row.fail("a row holds range_m and bearing_rad, or u_px and v_px, not both");
+    row.fail("a row must have range_m and bearing_rad, or u_px and v_px, but not both");
   if (has_pixel) return Pixel{row.number(4), row.number(5)};
   if (has_range && has_bearing) return RangeBearing{read_range(row, 2), row.number(3)};
   if (has_range) return Range{read_range(row, 2)};
@@ -76,7 +76,7 @@ std::optional<EventContent> read_observation(TextTable& row, Tally&) {
   if (!row.is_empty(1)) observation.id = read_id(row, 1);
   const auto measurement = read_measurement(row);
   if (!measurement && observation.id)
-    row.fail("nothing is measured: range_m, bearing_rad, u_px and v_px are all empty");
+    row.fail("no measurement: range_m, bearing_rad, u_px and v_px are all empty");
   if (!measurement) return Observations{};
   observation.value = *measurement;
   return Observations{observation};
@@ -96,8 +96,8 @@ EventStream::ReadRow read_image_below(const fs::path& folder) {
     last = stamp;
     const fs::path file = image_path(folder, row);
     const bool exists = fs::is_regular_file(file);
-    if (repeats) tally.count("images skipped that repeat the stamp before them");
-    if (!exists) tally.count("images skipped that are named in images.csv and missing in images/");
+    if (repeats) tally.count("images skipped with the same stamp as the one before");
+    if (!exists) tally.count("images skipped that are listed in images.csv and missing in images/");
     if (repeats || !exists) return std::nullopt;
     return Image{file.string()};
   };
@@ -136,7 +136,7 @@ Meaning set_truth_sensor(LogInfo& info, int axis) {
 
 Result<void> check_version(const std::string& value) {
   if (value == log_format::kVersion) return {};
-  return Error{in_quotes(value) + " is a version that this program does not read; it reads 1"};
+  return Error{in_quotes(value) + " is not a supported version; only 1 is"};
 }
 
 /// All keys of log.yaml outside of its config section.
@@ -160,7 +160,7 @@ Error unknown_key(const std::string& where, const std::string& key,
   names.reserve(known.size());
   for (const auto& [name, meaning] : known) names.push_back(name);
   const std::string guess = nearest_name(key, names);
-  return {fmt::format("{}: unknown key {}{}; config keys stand under `config:`", where, key,
+  return {fmt::format("{}: unknown key {}{}; config keys belong under `config:`", where, key,
                       guess.empty() ? "" : fmt::format(", did you mean {}?", guess))};
 }
 
@@ -185,7 +185,7 @@ Result<void> take_entries(const std::vector<FlatYamlEntry>& entries, const std::
 Result<void> read_info(const fs::path& folder, LogInfo& info) {
   const fs::path file = folder / log_format::kInfoFile;
   if (!fs::exists(file))
-    return Error{fmt::format("{}: {} is missing; it needs at least the line `{}: {}`", folder.string(),
+    return Error{fmt::format("{}: {} is missing; it must have at least the line `{}: {}`", folder.string(),
                              log_format::kInfoFile, log_format::kVersionKey, log_format::kVersion)};
   const auto text = read_file(file);
   if (!text) return text.error();
@@ -205,7 +205,7 @@ Result<void> read_landmarks(const fs::path& file, LogInfo& info) {
     const TrueLandmark landmark{read_id(*table, 0), table->number(1), table->number(2),
                                 table->is_empty(3) ? 0.0 : table->number(3)};
     if (std::ranges::find(info.landmarks, landmark.id, &TrueLandmark::id) != info.landmarks.end())
-      table->fail(fmt::format("landmark {} stands here twice", to_string(landmark.id)));
+      table->fail(fmt::format("landmark {} is listed twice", to_string(landmark.id)));
     info.landmarks.push_back(landmark);
   }
   if (table->error()) return *table->error();
@@ -279,8 +279,8 @@ Result<void> check_one_odometry(const fs::path& folder) {
   for (const auto& table : log_format::kOdometryTables) {
     if (!fs::exists(folder / table.file)) continue;
     if (!found.empty())
-      return Error{fmt::format("{}: both {} and {} are here; keep the one to use", folder.string(), found,
-                               table.file)};
+      return Error{
+          fmt::format("{}: both {} and {} exist; remove one of them", folder.string(), found, table.file)};
     found = table.file;
   }
   return {};

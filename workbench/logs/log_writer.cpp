@@ -164,7 +164,7 @@ class LogText {
   }
 
   Result<void> add_content(Stamp /*stamp*/, const MarkerOutlines& /*outlines*/) {
-    return Error{"a log folder has no table for the corners of markers"};
+    return Error{"a log folder cannot store the corners of markers"};
   }
 
   Result<void> add_content(Stamp stamp, const Image& image) {
@@ -183,7 +183,7 @@ class LogText {
   /// An image that lies elsewhere is named by its full path.
   Result<void> add_image_file(Stamp stamp, const Image& image) {
     if (image.file.find_first_of(",\n") != std::string::npos)
-      return Error{image.file + ": the name of an image in a log cannot hold a comma"};
+      return Error{image.file + ": an image name in a log must not contain a comma"};
     const fs::path full = fs::absolute(image.file).lexically_normal();
     const fs::path relative = full.lexically_relative(images_);
     const bool is_inside = !relative.empty() && *relative.begin() != "..";

@@ -170,7 +170,7 @@ class MapReader {
   }
 
   void expect_end_of_line(std::string_view rest) {
-    if (!take_word(rest).empty()) fail("there is more in this line than expected");
+    if (!take_word(rest).empty()) fail("unexpected text at the end of this line");
   }
 
   int integer_after(std::string_view key) {
@@ -183,7 +183,7 @@ class MapReader {
 
   void read_header(MapState& map) {
     if (const auto version = value_after("waymark_map"); !error_ && version != kMapVersion)
-      fail(fmt::format("version {} of the map format; this program reads {}", in_quotes(version),
+      fail(fmt::format("version {} of the map format is not supported; only {} is", in_quotes(version),
                        kMapVersion));
     map.made_by = value_after("made_by");
     if (const auto text = value_after("stamp_s"); !error_) {
@@ -197,13 +197,14 @@ class MapReader {
     }
     map.landmark_dimension = integer_after("landmark_dimension");
     if (map.landmark_dimension != 2 && map.landmark_dimension != 3)
-      fail("the dimension of a landmark is 2 or 3");
+      fail("the dimension of a landmark must be 2 or 3");
   }
 
   LandmarkId take_id(std::string_view& rest) {
     const std::string_view word = take_word(rest);
     const auto family = family_named(word);
-    if (!family) fail(in_quotes(word) + " is no kind of landmark; expected none, marker, barcode or corner");
+    if (!family)
+      fail(in_quotes(word) + " is not a kind of landmark; expected none, marker, barcode or corner");
     return {family.value_or(LandmarkId::Family::kNone), take_integer(rest)};
   }
 
@@ -261,12 +262,12 @@ class MapReader {
     for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
       const std::size_t high = kHexDigits.find(hex[i]), low = kHexDigits.find(hex[i + 1]);
       if (high == std::string_view::npos || low == std::string_view::npos)
-        fail("the pixels of a patch are two hexadecimal digits each");
+        fail("the pixels of a patch must be two hexadecimal digits each");
       patch.pixels.push_back(static_cast<std::uint8_t>(16 * high + low));
     }
     const double side = std::sqrt(static_cast<double>(patch.pixels.size()));
     if (hex.empty() || hex.size() % 2 != 0 || side != std::floor(side))
-      fail("the pixels of a patch are a square of two hexadecimal digits each");
+      fail("the pixels of a patch must be a square of two hexadecimal digits each");
     expect_end_of_line(rest);
     return patch;
   }
@@ -276,7 +277,7 @@ class MapReader {
     std::erase_if(ids, [](LandmarkId id) { return id.family == LandmarkId::Family::kNone; });
     std::ranges::sort(ids);
     if (const auto twice = std::ranges::adjacent_find(ids); twice != ids.end())
-      error_ = Error{fmt::format("{}: landmark {} stands here twice", lines_.name(), to_string(*twice))};
+      error_ = Error{fmt::format("{}: landmark {} is listed twice", lines_.name(), to_string(*twice))};
     else if (!is_covariance(map.covariance))
       error_ = Error{lines_.name() + ": the covariance is not positive semi-definite"};
     for (const LandmarkPatch& patch : map.patches)

@@ -24,7 +24,7 @@ Result<Form> form_of(const std::filesystem::path& path) {
   if (extension == ".waymark") return Form::kWaymark;
   if (extension == ".json") return Form::kJson;
   if (extension == ".csv") return Form::kCsv;
-  return Error{path.string() + ": a map's file ends with .waymark, .json or .csv"};
+  return Error{path.string() + ": the name of a map file ends with .waymark, .json or .csv"};
 }
 
 Json landmarks_json(const MapState& map) {
@@ -114,11 +114,11 @@ Result<MapState> read_json(const std::filesystem::path& path) {
   try {
     const Json json = Json::parse(*text);
     if (json.at("waymark_map") != 1)
-      return Error{fmt::format("{}: version {} of the map format; this program reads 1", path.string(),
+      return Error{fmt::format("{}: version {} of the map format is not supported; only 1 is", path.string(),
                                json_text(json.at("waymark_map")))};
     return checked(map_of(json), path.string());
   } catch (const std::exception& problem) {
-    return Error{fmt::format("{}: is no map: {}", path.string(), problem.what())};
+    return Error{fmt::format("{}: is not a map: {}", path.string(), problem.what())};
   }
 }
 

@@ -70,7 +70,7 @@ std::optional<Event> EventStream::read_event(Tally& tally) {
     if (table_.error()) break;
     if (!content) continue;
     if (stamp == last_stamp_ && !std::holds_alternative<Observations>(*content))
-      tally.count(about_rows(table_, "that repeat the stamp before them"));
+      tally.count(about_rows(table_, "with the same stamp as the row before"));
     last_stamp_ = stamp;
     return Event{stamp, *std::move(content)};
   }

@@ -46,7 +46,7 @@ Result<void> read_pose_covariances(const std::filesystem::path& path, Trajectory
     const Eigen::Matrix3d P = read_covariance(*table);
     while (next < trajectory.size() && trajectory[next].stamp < stamp) ++next;
     if (next == trajectory.size() || trajectory[next].stamp != stamp)
-      table->fail("no pose of the trajectory has this stamp; both files must be of one run");
+      table->fail("no pose of the trajectory has this stamp; both files must be from the same run");
     else
       trajectory[next++].covariance = P;
   }

@@ -56,7 +56,7 @@ bool TextLines::next() {
 
 Error TextLines::error(std::string_view what) const {
   return {
-      fmt::format("{}:{}: {}{}", name_, number_, what, is_cut_ ? " (the file breaks off in this line)" : "")};
+      fmt::format("{}:{}: {}{}", name_, number_, what, is_cut_ ? " (the file is cut off in this line)" : "")};
 }
 
 std::string_view take_word(std::string_view& rest) {

@@ -55,7 +55,7 @@ Result<void> TextTable::read_header(const TableLayout& layout) {
                                       layout.columns));
     }
     if (std::find(in_file_.begin(), name, *name) != name)
-      return lines_.error("column " + *name + " stands here twice");
+      return lines_.error("column " + *name + " is listed twice");
   }
   return {};
 }
@@ -118,7 +118,7 @@ Stamp TextTable::stamp(std::size_t column) {
 Stamp TextTable::ordered_stamp(std::size_t column) {
   const Stamp now = stamp(column);
   if (last_stamp_ && now < *last_stamp_)
-    fail(fmt::format("stamp {} is before {} in line {}; rows must be in the order of time", to_string(now),
+    fail(fmt::format("stamp {} is before {} in line {}; rows must be sorted by time", to_string(now),
                      to_string(*last_stamp_), last_stamp_line_));
   last_stamp_ = now;
   last_stamp_line_ = lines_.number();

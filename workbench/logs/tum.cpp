@@ -17,7 +17,7 @@ constexpr std::size_t kLongestRow = 2048;
 /// Heading of the quaternion in columns 4 to 7.
 double read_heading(TextTable& row) {
   const double x = row.number(4), y = row.number(5), z = row.number(6), w = row.number(7);
-  if (x * x + y * y + z * z + w * w < 1e-6) row.fail("the quaternion has no length");
+  if (x * x + y * y + z * z + w * w < 1e-6) row.fail("the quaternion is zero");
   return std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
 }
 
