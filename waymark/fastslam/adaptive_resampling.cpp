@@ -7,9 +7,7 @@
 namespace waymark::fastslam {
 
 AdaptiveResampling::AdaptiveResampling(const FastSlamOptions& options, ParticleBlocks& blocks)
-    : temper_below_(options.temper_below),
-      resample_below_(options.resample_below),
-      resampling_(blocks) {}
+    : temper_below_(options.temper_below), resample_below_(options.resample_below), resampling_(blocks) {}
 
 bool AdaptiveResampling::normalise(Belief& belief) const {
   if (!normalise_weights(belief.particles, belief.blocks)) return false;
