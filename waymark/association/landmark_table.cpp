@@ -20,7 +20,8 @@ void LandmarkTable::append(const LandmarkRecord& record) {
     next_number_ = std::max(next_number_, record.id.number + 1);
   LandmarkRecord& appended = records_.emplace_back(record);
   appended.observed_at_m = travelled_m_;
-  appended.observed_at_scan = appended.claimed_at_scan = scan_;
+  appended.added_at_scan = appended.observed_at_scan = appended.claimed_at_scan = scan_;
+  if (size() == 1) connected_until_scan_ = scan_ + 1;
 }
 
 void LandmarkTable::remove(int landmark) {
@@ -34,6 +35,7 @@ void LandmarkTable::remove(int landmark) {
 }
 
 void LandmarkTable::observe(int landmark) {
+  if (is_connected(landmark)) connected_until_scan_ = std::max(connected_until_scan_, scan_);
   LandmarkRecord& observed = records_[as_index(landmark)];
   ++observed.observations;
   observed.observed_at_m = travelled_m_;

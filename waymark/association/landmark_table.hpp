@@ -26,6 +26,7 @@ struct LandmarkRecord {
   Existence existence = Existence::certain();
   int observations = 1;
   double observed_at_m = 0.0;  ///< distance travelled when it was last observed
+  std::int64_t added_at_scan = 0;
   std::int64_t observed_at_scan = 0;
   std::int64_t claimed_at_scan = 0;  ///< the last scan that had an observation for it, gated ones too
 };
@@ -73,6 +74,11 @@ class LandmarkTable {
   [[nodiscard]] double travelled_since_m(int landmark) const {
     return travelled_m_ - (*this)[landmark].observed_at_m;
   }
+  /// Whether a landmark that is connected was observed after this one was added; those of the first scan that
+  /// adds any are. What a robot adds that has lost its place is not connected with what it knew before.
+  [[nodiscard]] bool is_connected(int landmark) const {
+    return (*this)[landmark].added_at_scan < connected_until_scan_;
+  }
   /// Tentative landmarks are not.
   [[nodiscard]] bool is_in_map(int landmark) const;
   /// Whether it was never confirmed and the robot has gone too far (kTentativeDistance_m) since it was last
@@ -85,6 +91,7 @@ class LandmarkTable {
   std::vector<LandmarkId> removed_;
   std::int32_t next_number_ = 0;
   std::int64_t scan_ = 0;
+  std::int64_t connected_until_scan_ = 0;  // landmarks that were added before it are connected
   double travelled_m_ = 0.0;
 };
 

@@ -26,6 +26,8 @@ const char* describe(Outcome outcome) {
       return "the map is full (map.capacity)";
     case Outcome::kNotInMap:
       return "its landmark is not in the map";
+    case Outcome::kDistrusted:
+      return "of landmarks that were found at several places";
   }
   return "unknown";
 }

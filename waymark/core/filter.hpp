@@ -25,7 +25,8 @@ enum class Outcome : std::uint8_t {
   kDuplicate,  ///< a second observation of one landmark in one scan
   kDeferred,   ///< kept until it can be told, with others, where its landmark is
   kMapFull,    ///< would have been a new landmark, but there is no room
-  kNotInMap,   ///< of no landmark of a map that is held as it is
+  kNotInMap,    ///< of no landmark of a map that is held as it is
+  kDistrusted,  ///< of a landmark that was found at several places: it moves, or two bear its identity
 };
 
 [[nodiscard]] const char* describe(Outcome outcome);

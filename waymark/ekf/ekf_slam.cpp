@@ -41,6 +41,7 @@ EkfSlam::EkfSlam(const EkfOptions& options, const LandmarkSensor& sensor, int th
       observation_(map_.state(), errors_, sensor.T_robot_sensor()),
       completed_(sensor),
       gate_(options.gate),
+      faults_(sensor),
       iterated_(options.iterations, options.likelihood, options.consistency),
       deferred_(map_, observation_, options.consistency) {
   if (options.unknown) unknown_.emplace(*options.unknown, options.gate, sensor, map_, observation_);
@@ -61,6 +62,7 @@ void EkfSlam::predict(const Motion& motion) {
     odometry_.predict(map_.state(), motion);
     errors_.drive(travelled_m(motion));
     map_.table().travel(travelled_m(motion));
+    faults_.predict(motion);
   }
   timer.finish(EkfBlock::kPredict);
 }
@@ -72,9 +74,7 @@ const Correction& EkfSlam::correct(std::span<const Observation> given) {
   begin_scan(observations.size());
   // Match: innovation (10) and its covariance (11) against the gate.
   for (std::size_t i = 0; i < observations.size(); ++i) associate(i, observations[i]);
-  if (recovery_.is_lost(innovations_))
-    recovery_.recover(innovations_,
-                      [&](const Motion& added_motion) { gate_again(added_motion, observations); });
+  isolate_faults(observations);
   if (unknown_) associate_unknown(observations);
   timer.finish(EkfBlock::kAssociate);
   // Estimate: gain, state and covariance (12).
@@ -85,8 +85,10 @@ const Correction& EkfSlam::correct(std::span<const Observation> given) {
     settle_unknown(observations);
     judge_landmarks();
   }
-  for (std::size_t i = 0; i < observations.size(); ++i)
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    begin_anew_where_wrong(i);
     if (innovations_[i].outcome == Outcome::kAdded) add(i, observations[i]);
+  }
   timer.finish(EkfBlock::kAdd);
   correction_ = {innovations_, map_.table().removed()};
   return correction_;
@@ -124,6 +126,10 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
   }
   errors_.assign(map_.state(), innovation.landmark);
   const auto landmark = map_.table().find(innovation.landmark);
+  if (!landmark && faults_.is_distrusted(innovation.landmark)) {
+    innovation.outcome = Outcome::kDistrusted;
+    return;
+  }
   if (!landmark) {
     innovation.outcome = of_no_landmark();  // added if add() finds room
     return;
@@ -178,6 +184,32 @@ void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation
   map_.state().predict(added_motion);
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (innovations_[i].outcome == Outcome::kGated) gate(innovations_[i], linearize(i, observations[i]));
+}
+
+/// The robot's fault is mended at once, that of landmarks when the others have corrected the state.
+void EkfSlam::isolate_faults(std::span<const Observation> observations) {
+  if (held_) {
+    if (recovery_.is_lost(innovations_))
+      recovery_.recover(innovations_,
+                        [&](const Motion& added_motion) { gate_again(added_motion, observations); });
+    return;
+  }
+  faults_.review(observations, innovations_, map_.table());
+  if (!faults_.wants_relocation()) return;
+  if (const auto motion = faults_.find_motion(map_.save(), state().pose().T_world_robot)) {
+    gate_again(*motion, observations);
+    faults_.relocated();
+  }
+}
+
+/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be anywhere.
+void EkfSlam::begin_anew_where_wrong(std::size_t index) {
+  if (held_ || innovations_[index].outcome != Outcome::kGated || !faults_.is_landmark_wrong(index)) return;
+  const auto landmark = map_.table().find(innovations_[index].landmark);
+  if (!landmark) return;
+  map_.remove(*landmark);
+  innovations_[index].outcome =
+      faults_.is_distrusted(innovations_[index].landmark) ? Outcome::kDistrusted : Outcome::kAdded;
 }
 
 /// In blocks of at most kMaxObservations; a later block is linearised at what the earlier ones found.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "waymark/association/association_options.hpp"
+#include "waymark/association/fault_isolation.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/association/recovery.hpp"
 #include "waymark/core/filter.hpp"
@@ -66,6 +67,7 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return map_.state(); }
+  [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// How often the robot was lost and recovered: see Recovery.
   [[nodiscard]] int recoveries() const { return recovery_.recoveries(); }
   /// Pairs of landmarks that turned out to be one.
@@ -88,10 +90,12 @@ class EkfSlam final : public Filter {
   void associate_unknown(std::span<const Observation> observations);
   void gate(Innovation& innovation, const std::optional<ekf::LinearizedObservation>& linearization);
   void gate_again(const Motion& added_motion, std::span<const Observation> observations);
+  void isolate_faults(std::span<const Observation> observations);
   void update(std::span<const Observation> observations);
   void collect(std::size_t index, const Observation& observation);
   void settle_unknown(std::span<const Observation> observations);
   void judge_landmarks();
+  void begin_anew_where_wrong(std::size_t index);
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] std::optional<ekf::LinearizedObservation> linearize(std::size_t index,
                                                                     const Observation& observation) const;
@@ -105,6 +109,7 @@ class EkfSlam final : public Filter {
   CompletedObservations completed_;
   Gate gate_;
   Recovery recovery_;
+  FaultIsolation faults_;
   ekf::IteratedUpdate iterated_;
   ekf::DeferredInitialiser deferred_;
   std::optional<Unknown> unknown_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "waymark/association/find_pose.hpp"
+#include "waymark/association/local_map.hpp"
 #include "waymark/ekf/ekf_slam.hpp"
 
 namespace waymark {
@@ -43,7 +44,6 @@ class Localizer final : public Filter {
  private:
   Localizer(MapState map, const EkfOptions& options, const LandmarkSensor& sensor, int threads);
   void remember(const Observation& observation);
-  [[nodiscard]] std::size_t place_of(const ObservedLandmark& seen) const;
   [[nodiscard]] bool is_enough(const PoseCandidates& found) const;
   [[nodiscard]] bool is_elsewhere(const PoseCandidates& found) const;
   [[nodiscard]] std::string reason(const PoseCandidates& found) const;
@@ -54,13 +54,12 @@ class Localizer final : public Filter {
 
   MapState map_;
   Pose2 T_robot_sensor_;
-  SensorErrors errors_;
   bool unknown_;
   CompletedObservations completed_;
+  LocalMap local_map_;  // of a robot that is not located
   EkfSlam ekf_;
   bool located_ = false;
   std::optional<Error> refusal_;
-  std::vector<ObservedLandmark> memory_;  // of a robot that is not located
   int observations_ = 0;                  // in it
   double driven_s_ = 0.0;                 // meanwhile
   int doubt_ = 0;                         // observations that contradict, less those that agree

@@ -27,6 +27,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const LandmarkSensor& sensor,
       belief_(options, sensor, threads),
       history_(sensor),
       gate_(options.gate, model_),
+      faults_(sensor),
       update_(options, belief_.blocks),
       edges_(model_),
       resampling_(options, belief_.blocks),
@@ -37,6 +38,7 @@ FastSlam::FastSlam(const FastSlamOptions& options, const LandmarkSensor& sensor,
 void FastSlam::predict(const Motion& motion) {
   if (is_still(motion) || !is_finite(motion)) return;
   belief_.predict(motion);
+  faults_.predict(motion);
   history_.move(motion.increment);
   const double heading_variance = belief_.pending.covariance(2, 2);
   if (heading_variance < kMaxDeferredHeadingSigma_rad * kMaxDeferredHeadingSigma_rad) return;
@@ -95,6 +97,7 @@ Outcome FastSlam::identify(std::size_t index) const {
   if (!observation.id) return Outcome::kUnidentified;
   if (scan_.has_before(index, *observation.id)) return Outcome::kDuplicate;
   const auto landmark = belief_.landmarks.find(*observation.id);
+  if (!landmark && faults_.is_distrusted(*observation.id)) return Outcome::kDistrusted;
   if (!landmark) return room() > 0 ? Outcome::kAdded : Outcome::kMapFull;
   const bool fits = fastslam::can_take(belief_.store.form(*landmark), *fastslam::kind_of(observation.value));
   return fits ? Outcome::kMatched : Outcome::kUnusable;
@@ -118,17 +121,31 @@ void FastSlam::gate() {
   belief_.load_sample();
   for (std::size_t i = 0; i < scan_.size(); ++i)
     if (scan_.is(i, Outcome::kMatched)) gate_.judge(i, scan_, belief_);
-  if (recovery_.is_lost(scan_.innovations)) recover();
+  isolate_faults();
 }
 
-/// The motion that is still to be drawn is made less sure.
-void FastSlam::recover() {
+/// The robot's fault is mended at once, by a motion that is still to be drawn; that of landmarks when the others
+/// have corrected the particles.
+void FastSlam::isolate_faults() {
+  faults_.review(scan_.observations, scan_.innovations, belief_.landmarks);
+  if (!faults_.wants_relocation()) return;
+  const auto motion = faults_.find_motion(save(), pose().T_world_robot);
+  if (!motion) return;
   belief_.has_moved = true;
-  recovery_.recover(scan_.innovations, [this](const Motion& added_motion) {
-    belief_.pending = compose(belief_.pending, added_motion);
-    for (std::size_t i = 0; i < scan_.size(); ++i)
-      if (scan_.is(i, Outcome::kGated)) gate_.judge(i, scan_, belief_);
-  });
+  belief_.pending = compose(belief_.pending, *motion);
+  for (std::size_t i = 0; i < scan_.size(); ++i)
+    if (scan_.is(i, Outcome::kGated)) gate_.judge(i, scan_, belief_);
+  faults_.relocated();
+}
+
+/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be anywhere.
+void FastSlam::begin_anew_where_wrong(std::size_t index) {
+  if (!scan_.is(index, Outcome::kGated) || !faults_.is_landmark_wrong(index)) return;
+  Innovation& innovation = scan_.innovations[index];
+  const auto landmark = belief_.landmarks.find(innovation.landmark);
+  if (!landmark) return;
+  map_.forget(*landmark, belief_);
+  innovation.outcome = faults_.is_distrusted(innovation.landmark) ? Outcome::kDistrusted : Outcome::kAdded;
 }
 
 void FastSlam::accept() {
@@ -190,6 +207,7 @@ void FastSlam::manage_map() {
 }
 
 void FastSlam::initialise() {
+  for (std::size_t i = 0; i < scan_.size(); ++i) begin_anew_where_wrong(i);
   for (std::size_t i = 0; i < scan_.size(); ++i)
     if (scan_.is(i, Outcome::kAdded) && !is_ambiguous(i)) map_.initialise(i, scan_, history_, belief_);
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "waymark/association/recovery.hpp"
+#include "waymark/association/fault_isolation.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/fastslam/adaptive_resampling.hpp"
@@ -39,8 +39,8 @@ namespace waymark {
 /// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
 /// moves them
 ///   instead (fastslam::ScanUpdate).
-/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). A
-///   set that refuses several in a row is itself what is wrong, and has to accept again (Recovery).
+/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether
+///   the robot or a landmark is to blame for those that are is what FaultIsolation tells.
 /// * Weights never collapse onto a few particles (fastslam::AdaptiveResampling).
 /// * The pose and its covariance are taken after weighting and before resampling.
 /// * A robot that stands still is neither predicted nor resampled.
@@ -66,8 +66,7 @@ class FastSlam final : public Filter {
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
   /// How often an observation moved the particles instead of weighing them.
   [[nodiscard]] std::int64_t enkf_updates() const { return update_.enkf_updates(); }
-  /// How often the robot was lost and recovered: see Recovery.
-  [[nodiscard]] std::int64_t recoveries() const { return recovery_.recoveries(); }
+  [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }
 
@@ -86,7 +85,8 @@ class FastSlam final : public Filter {
   [[nodiscard]] bool is_ambiguous(std::size_t index) const;
   [[nodiscard]] bool tells_nothing() const;
   void gate();
-  void recover();
+  void isolate_faults();
+  void begin_anew_where_wrong(std::size_t index);
   void accept();
   void accept(std::size_t index);
   void accept(const fastslam::ViewEdge& edge);
@@ -101,7 +101,7 @@ class FastSlam final : public Filter {
   fastslam::Scan scan_;
   fastslam::ViewHistory history_;
   fastslam::InnovationGate gate_;
-  Recovery recovery_;
+  FaultIsolation faults_;
   fastslam::ScanUpdate update_;
   fastslam::ViewEdges edges_;
   fastslam::AdaptiveResampling resampling_;

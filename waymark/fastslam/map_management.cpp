@@ -112,9 +112,14 @@ void MapManagement::refine(Belief& belief) {
 void MapManagement::delete_false_tracks(Belief& belief) {
   for (int k = belief.store.size() - 1; k >= 0; --k) {
     if (belief.records[as_index(k)].existence > 0.0 && !belief.landmarks.is_stale(k)) continue;
-    belief.remove(k);
-    std::ranges::replace(unresolved_, belief.store.size(), k);
+    forget(k, belief);
   }
+}
+
+void MapManagement::forget(int landmark, Belief& belief) {
+  std::erase(unresolved_, landmark);
+  belief.remove(landmark);
+  std::ranges::replace(unresolved_, belief.store.size(), landmark);
 }
 
 }  // namespace waymark::fastslam

@@ -34,6 +34,8 @@ class MapManagement {
   /// Landmarks may have become simpler: fewer hypotheses, or points.
   void refine(Belief& belief);
 
+  /// Forgets one landmark; the last one takes its index.
+  void forget(int landmark, Belief& belief);
   /// Forgets landmarks that no particle believes in any more, and those that a single observation left
   /// behind. O(landmarks).
   void delete_false_tracks(Belief& belief);

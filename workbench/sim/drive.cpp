@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "waymark/core/random.hpp"
 
+#include "workbench/sim/faults.hpp"
 #include "workbench/sim/wheels.hpp"
 
 namespace waymark::sim {
@@ -22,19 +24,37 @@ int steps_of(const PathSegment& segment, const SimOptions& options) {
   return static_cast<int>(std::ceil(duration_s * options.wheels.rate_hz - 1e-9));
 }
 
-// A robot that turns on the spot leaves its errors for the next straight line.
-ArcStep steer(const ArcStep& planned, const Pose2& T_world_planned, const Pose2& T_world_robot) {
+// A robot that turns on the spot leaves its errors for the next straight line. It catches up at twice its
+// speed at most, waits rather than drives backwards, and corrects its heading no faster than it may turn: small
+// errors never meet these limits, only a robot that was carried away does.
+ArcStep steer(const ArcStep& planned, const Pose2& T_world_planned, const Pose2& T_world_robot,
+              double max_turn_rad) {
   const Pose2 error = T_world_robot.inverse() * T_world_planned;
   const double lookahead_m = std::max(kLookahead_m, 2.0 * planned.distance_m);
   const double gain = 1.0 - std::exp(-planned.distance_m / kSettle_m);
-  const double heading_rad = error.theta_rad + std::atan(error.y_m / lookahead_m);
-  return {planned.distance_m + gain * error.x_m, planned.turn_rad + gain * heading_rad};
+  const double heading_rad = wrap_angle(error.theta_rad + std::atan(error.y_m / lookahead_m));
+  return {planned.distance_m + std::clamp(gain * error.x_m, -planned.distance_m, planned.distance_m),
+          planned.turn_rad + std::clamp(gain * heading_rad, -max_turn_rad, max_turn_rad)};
+}
+
+// Somewhere else: as far and as much turned as the options say, in a direction and a sense that are drawn.
+Pose2 carried(const Pose2& T_world_robot, const FaultOptions& options, std::uint64_t seed) {
+  RandomStream random(seed, StreamPurpose::kSimulation, 0, kCarriedRobot);
+  const double direction_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
+  const double turn_rad = to_radians(options.robot_carried_deg) * (random.uniform() < 0.5 ? -1.0 : 1.0);
+  return {T_world_robot.x_m + options.robot_carried_m * std::cos(direction_rad),
+          T_world_robot.y_m + options.robot_carried_m * std::sin(direction_rad),
+          wrap_angle(T_world_robot.theta_rad + turn_rad)};
 }
 
 class Driver {
  public:
   Driver(const SimOptions& options, const Pose2& T_world_start, std::uint64_t seed)
-      : options_(options), seed_(seed), T_world_robot_(T_world_start) {
+      : options_(options),
+        seed_(seed),
+        max_turn_rad_(to_radians(options.path.turn_rate_max_degps) / options.wheels.rate_hz),
+        carried_at_step_(options.faults.robot_carried_at_s * options.wheels.rate_hz),
+        T_world_robot_(T_world_start) {
     drive_.rate_hz = options.wheels.rate_hz;
   }
 
@@ -42,7 +62,8 @@ class Driver {
     const int count = steps_of(segment, options_);
     for (int i = 0; i < count; ++i) {
       const ArcStep planned{segment.arc.distance_m / count, segment.arc.turn_rad / count};
-      step(steer(planned, segment.at(static_cast<double>(i) / count), T_world_robot_));
+      carry_if_due();
+      step(steer(planned, segment.at(static_cast<double>(i) / count), T_world_robot_, max_turn_rad_));
     }
     if (segment.arc.distance_m > 0.0) drive_.corners.push_back(drive_.steps.size());
   }
@@ -50,6 +71,12 @@ class Driver {
   [[nodiscard]] Drive finish() && { return std::move(drive_); }
 
  private:
+  void carry_if_due() {
+    const auto step = static_cast<double>(drive_.steps.size());
+    if (carried_at_step_ > 0.0 && step >= carried_at_step_ && step < carried_at_step_ + 1.0)
+      T_world_robot_ = carried(T_world_robot_, options_.faults, seed_);
+  }
+
   void step(const ArcStep& command) {
     RandomStream random(seed_, StreamPurpose::kSimulation, drive_.steps.size(), 0);
     DriveStep next{T_world_robot_, command, draw_slip(options_.wheels, command, random), {}};
@@ -60,6 +87,8 @@ class Driver {
 
   const SimOptions& options_;
   std::uint64_t seed_;
+  double max_turn_rad_;  // in a step
+  double carried_at_step_;
   Pose2 T_world_robot_;
   Drive drive_;
 };

@@ -16,11 +16,6 @@ std::size_t draw_index(std::size_t count, RandomStream& random) {
   return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
 }
 
-bool is_visible(const SensorOptions& options, const RangeBearing& seen) {
-  return seen.range_m >= options.range_min_m && seen.range_m <= options.range_max_m &&
-         std::abs(seen.bearing_rad) <= to_radians(options.field_of_view_deg) / 2.0;
-}
-
 RangeBearing disturbed(const LandmarkSensor& sensor, const RangeBearing& seen, RandomStream& random) {
   const Eigen::Matrix2d R = noise_covariance(sensor, seen);
   const double range_m = seen.range_m + std::sqrt(R(0, 0)) * random.normal();
@@ -74,6 +69,11 @@ LandmarkSensor model_of(const SensorOptions& options) {
           .detection_probability = std::min(1.0 - options.drop_probability, kDetectionProbabilityMax)};
 }
 
+bool is_visible(const SensorOptions& options, const RangeBearing& seen) {
+  return seen.range_m >= options.range_min_m && seen.range_m <= options.range_max_m &&
+         std::abs(seen.bearing_rad) <= to_radians(options.field_of_view_deg) / 2.0;
+}
+
 RangeBearing sight(const Pose2& T_sensor_world, const Eigen::Vector2d& p_world) {
   const Eigen::Vector2d p_sensor = T_sensor_world * p_world;
   return {p_sensor.norm(), std::atan2(p_sensor.y(), p_sensor.x())};
@@ -85,8 +85,7 @@ Observations scan(const SensorOptions& options, const Pose2& T_world_robot,
   const Pose2 T_sensor_world = (T_world_robot * sensor.T_robot_sensor()).inverse();
   Observations seen;
   const auto report = [&](LandmarkId id, const RangeBearing& value) {
-    const auto told = options.identities ? std::optional(id) : std::nullopt;
-    seen.push_back({told, as_measured(options.observe, value), std::nullopt});
+    seen.push_back({id, as_measured(options.observe, value), std::nullopt});
   };
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const RangeBearing truth = sight(T_sensor_world, {landmarks[i].x_m, landmarks[i].y_m});

@@ -167,6 +167,23 @@ void describe(Schema& schema, TruthOptions& o) {
   schema.boolean("sim.truth_heading", o.heading, "true poses include the heading");
 }
 
+void describe(Schema& schema, FaultOptions& o) {
+  schema.real("sim.false_first_share", o.false_first_share, kProbability,
+              "share of the landmarks whose first observation is false; above 0: at least one of them");
+  schema.real("sim.outlier_share", o.outlier_share, kProbability,
+              "share of false observations: a range times 0.3 to 3, or a bearing 30 to 180 degrees off");
+  schema.real("sim.landmark_carried_at_s", o.landmark_carried_at_s, {0.0, 1e6},
+              "time at which a landmark that is seen before and after is carried elsewhere, s; 0: never");
+  schema.real("sim.landmark_carried_m", o.landmark_carried_m, {0.0, 1000.0}, "how far, m");
+  schema.real("sim.robot_carried_at_s", o.robot_carried_at_s, {0.0, 1e6},
+              "time at which the robot is lifted and put down elsewhere, s; 0: never");
+  schema.real("sim.robot_carried_m", o.robot_carried_m, {0.0, 1000.0}, "how far, m, in any direction");
+  schema.real("sim.robot_carried_deg", o.robot_carried_deg, {0.0, 180.0},
+              "and how much it is turned, degrees, either way");
+  schema.boolean("sim.omit_false", o.omit,
+                 "leave out false observations, and those of a carried landmark: what the log would be without");
+}
+
 constexpr std::string_view kFolder = "sim/";
 constexpr std::string_view kFileEnding = ".yaml";
 
@@ -210,6 +227,7 @@ void describe(Schema& schema, SimOptions& options) {
   describe(schema, options.room);
   describe(schema, options.camera_simulator);
   describe(schema, options.truth);
+  describe(schema, options.faults);
 }
 
 CameraOptions camera_of(const CameraSimulatorOptions& options) {
@@ -225,7 +243,7 @@ CameraOptions camera_of(const CameraSimulatorOptions& options) {
 
 Result<void> validate(const SimOptions& options) {
   if (auto limits = validate_limits(options); !limits) return limits;
-  const auto& [path, world, wheels, sensor, room, camera_simulator, truth] = options;
+  const auto& [path, world, wheels, sensor, room, camera_simulator, truth, faults] = options;
   if (auto lens = validate_lens(camera_simulator); !lens) return lens;
   if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
     return Error{"simulation: sim.scene=corridor needs sim.path=square or sim.path=loop"};

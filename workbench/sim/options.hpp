@@ -110,6 +110,18 @@ struct CameraSimulatorOptions {
   double vibration_height_m = 0.001;
 };
 
+/// What goes wrong beyond noise. Nothing by default.
+struct FaultOptions {
+  double false_first_share = 0.0;
+  double outlier_share = 0.0;
+  double landmark_carried_at_s = 0.0;
+  double landmark_carried_m = 2.0;
+  double robot_carried_at_s = 0.0;
+  double robot_carried_m = 2.0;
+  double robot_carried_deg = 90.0;
+  bool omit = false;
+};
+
 /// How much of the truth the log holds.
 struct TruthOptions {
   double rate_hz = 10.0;
@@ -125,6 +137,7 @@ struct SimOptions {
   RoomOptions room;
   CameraSimulatorOptions camera_simulator;
   TruthOptions truth;
+  FaultOptions faults;
 };
 
 /// Adds every option as a key under `sim.`.

@@ -8,6 +8,7 @@
 #include "waymark/core/random.hpp"
 
 #include "workbench/config/robot_keys.hpp"
+#include "workbench/sim/faults.hpp"
 #include "workbench/sim/landmark_sensor.hpp"
 #include "workbench/sim/path.hpp"
 #include "workbench/sim/rooms.hpp"
@@ -120,14 +121,24 @@ void add_odometry(std::vector<Event>& events, const Drive& drive, const WheelOpt
   }
 }
 
-void add_scans(std::vector<Event>& events, const Drive& drive, const SensorOptions& options,
-               const std::vector<TrueLandmark>& landmarks, std::uint64_t seed) {
+std::vector<Event> make_scans(const Drive& drive, const SimOptions& options,
+                              const std::vector<TrueLandmark>& landmarks,
+                              const std::optional<CarriedLandmark>& carried, std::uint64_t seed) {
+  std::vector<Event> scans;
   for (std::uint64_t i = 0;; ++i) {
-    const Stamp stamp = stamp_from_seconds((static_cast<double>(i) + 0.5) / options.rate_hz);
-    if (stamp > drive.end()) return;
+    const Stamp stamp = scan_stamp(options.sensor, i);
+    if (stamp > drive.end()) return scans;
     RandomStream random(seed, StreamPurpose::kSimulation, i, 1);
-    Observations seen = scan(options, drive.at(stamp), landmarks, random);
-    if (!seen.empty()) events.emplace_back(stamp, std::move(seen));
+    scans.emplace_back(stamp, scan(options.sensor, drive.at(stamp), places_at(landmarks, carried, stamp), random));
+  }
+}
+
+void add_scans(std::vector<Event>& events, std::vector<Event> scans, bool identities) {
+  for (Event& each : scans) {
+    auto& seen = std::get<Observations>(each.content);
+    if (!identities)
+      for (Observation& observation : seen) observation.id.reset();
+    if (!seen.empty()) events.push_back(std::move(each));
   }
 }
 
@@ -173,16 +184,20 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
   if (auto size = check_size(path, options); !size) return size.error();
 
   const Drive driven = drive(path, options, seed);
+  const std::vector<TrueLandmark> placed = place_landmarks(options.world, path, seed);
+  const auto carried = carry_landmark(options.faults, options.sensor, driven, placed, seed);
+  std::vector<Event> scans = make_scans(driven, options, placed, carried, seed);
+  make_false(scans, options.faults, carried, placed, seed);
   LogInfo info{std::move(name),
                "simulation",
                settings_of(options),
-               place_landmarks(options.world, path, seed),
+               places_at(placed, options.faults.omit ? std::nullopt : carried, driven.end()),
                options.sensor.identities,
                false,
                {}};
   std::vector<Event> events;
   add_odometry(events, driven, options.wheels);
-  add_scans(events, driven, options.sensor, info.landmarks, seed);
+  add_scans(events, std::move(scans), options.sensor.identities);
   add_truth(events, driven, options.truth);
   std::unique_ptr<CameraSimulator> camera_simulator;
   if (has_images(options)) {
