@@ -182,7 +182,7 @@ TEST_F(Containers, WithoutDefinitionsTheStandardTypesAreKnown) {
   EXPECT_EQ(test::only<Image>(events).size(), 10U);
   EXPECT_TRUE(test::only<Observations>(events).empty());
   EXPECT_THAT((*source)->notes(),
-              Contains(HasSubstr("the definition of fiducial_msgs/FiducialTransformArray lacks")));
+              Contains(HasSubstr("the definition of fiducial_msgs/FiducialTransformArray does not include")));
 }
 
 struct Reading {

@@ -107,8 +107,10 @@ TEST(ImageFile, PgmGivesBackThePixels) {
 }
 
 TEST(ImageFile, DamagedPgmIsAnError) {
-  EXPECT_THAT(error_of(decode_image("P5", "a")), HasSubstr("a: damaged PGM file: no width"));
-  EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")), HasSubstr("no width"));
+  EXPECT_THAT(error_of(decode_image("P5", "a")),
+              HasSubstr("a: damaged PGM file: width, height and maximum grey value are missing"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")),
+              HasSubstr("width, height and maximum grey value are missing"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("the maximum grey value is 65535"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("is cut off"));
   EXPECT_THAT(error_of(decode_image("P5 -3 2 255\n", "a")), HasSubstr("each side must have"));

@@ -75,7 +75,7 @@ TEST(MapForms, RefusesWhatIsNoMap) {
     const auto read = read_map_of_any_form(folder.path() / name);
     return read ? std::string("none") : read.error().message;
   };
-  EXPECT_THAT(error_of("m.json", "{"), HasSubstr("m.json: is no map"));
+  EXPECT_THAT(error_of("m.json", "{"), HasSubstr("m.json: is not a map"));
   EXPECT_THAT(error_of("m.json", "{\"waymark_map\": 2}"), HasSubstr("version 2 of the map format"));
   EXPECT_THAT(error_of("m.json", "{\"waymark_map\": 1}"), HasSubstr("made_by"));
   EXPECT_THAT(error_of("m.txt", ""), HasSubstr("ends with .waymark, .json or .csv"));
