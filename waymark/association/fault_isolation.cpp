@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
+
+#include "waymark/core/gaussian.hpp"
+
 namespace waymark {
 namespace {
 
@@ -12,6 +16,18 @@ constexpr int kOutweighMany = 3;  // against those of a landmark that was observ
 constexpr int kSupport = 3;       // accepted observations of other landmarks meanwhile
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
+// The expectation of a landmark is this many times as unsure as its observation (area of the ellipses): an
+// observation that is false by as much passes the gate.
+constexpr double kUnsureRatio = 10.0;
+constexpr double kLongWait_m = 2.0;
+constexpr double kGate1 = 10.83;  // 99.9 % of chi-square with one degree of freedom
+
+/// Whether the innovation covariance S of a range and bearing leaves more room than the observation needs.
+bool is_vague(const Innovation& innovation, const ObservedLandmark& seen) {
+  const double log_det_S = -2.0 * innovation.log_density - innovation.nis - 2.0 * kLogTwoPi;
+  const double det_R = seen.covariance.determinant() / seen.p_robot.squaredNorm();
+  return log_det_S > std::log(det_R) + 2.0 * std::log(kUnsureRatio);
+}
 
 bool is_mostly_gated(std::span<const Innovation> innovations) {
   const auto count = [&](Outcome outcome) {
@@ -20,8 +36,8 @@ bool is_mostly_gated(std::span<const Innovation> innovations) {
   return count(Outcome::kGated) > count(Outcome::kMatched);
 }
 
-/// Of the increment that takes the robot to where it sees these landmarks: the inverse of the information that
-/// their places bring, in the frame before.
+/// Of the increment that takes the robot to where it sees these landmarks: the inverse of the information
+/// that their places bring, in the frame before.
 Eigen::Matrix3d increment_covariance(const PoseCandidate& fit, std::span<const ObservedLandmark> seen,
                                      const MapState& map, const Pose2& T_world_before) {
   const Pose2 increment = T_world_before.inverse() * fit.T_world_robot;
@@ -42,12 +58,62 @@ Eigen::Matrix3d increment_covariance(const PoseCandidate& fit, std::span<const O
 
 }  // namespace
 
-FaultIsolation::FaultIsolation(const LandmarkSensor& sensor) : doubted_(sensor) {
+FaultIsolation::FaultIsolation(const LandmarkSensor& sensor) : doubted_(sensor), waiting_(sensor) {
   contradictions_.reserve(LocalMap::kCapacity);
+  waiting_since_m_.reserve(LocalMap::kCapacity);
 }
 
-void FaultIsolation::review(std::span<const Observation> observations, std::span<const Innovation> innovations,
-                            const LandmarkTable& table) {
+void FaultIsolation::predict(const Motion& motion) {
+  doubted_.predict(motion);
+  waiting_.predict(motion);
+  travelled_m_ += travelled_m(motion);
+}
+
+/// Remembers what has to wait. Nothing has while one observation ties the robot to its map.
+bool FaultIsolation::wait(std::span<const Observation> observations,
+                          std::span<const Innovation> innovations) {
+  bool is_tied = false;
+  bool any = false;
+  for (std::size_t i = 0; i < innovations.size(); ++i) {
+    if (innovations[i].outcome != Outcome::kMatched || !observations[i].id) continue;
+    const auto seen = waiting_.locate(observations[i]);
+    if (!seen || !is_vague(innovations[i], *seen)) {
+      is_tied = true;
+    } else {
+      any = true;
+      waiting_.observe(observations[i]);
+      if (waiting_since_m_.size() < waiting_.landmarks().size()) waiting_since_m_.push_back(travelled_m_);
+    }
+  }
+  if (!is_tied) return any;
+  waiting_.clear();
+  waiting_since_m_.clear();
+  return false;
+}
+
+bool FaultIsolation::is_waiting(const Innovation& innovation) const {
+  return innovation.outcome == Outcome::kMatched && waiting_.find(innovation.landmark) != nullptr;
+}
+
+bool FaultIsolation::has_waited_long(LandmarkId id) const {
+  const auto index = static_cast<std::size_t>(waiting_.find(id) - waiting_.landmarks().data());
+  return travelled_m_ - waiting_since_m_[index] > kLongWait_m;
+}
+
+bool FaultIsolation::are_as_far_apart(LandmarkId first, LandmarkId second, const Apart& apart) const {
+  const ObservedLandmark* const a = waiting_.find(first);
+  const ObservedLandmark* const b = waiting_.find(second);
+  const Eigen::Vector2d seen = b->p_robot - a->p_robot;
+  const auto along = [](const Eigen::Vector2d& line, const Eigen::Matrix2d& P) {
+    return line.dot(P * line) / std::max(line.squaredNorm(), 1e-12);
+  };
+  const double nu = seen.norm() - apart.mean.norm();
+  return nu * nu <=
+         kGate1 * (along(seen, a->covariance + b->covariance) + along(apart.mean, apart.covariance));
+}
+
+void FaultIsolation::review(std::span<const Observation> observations,
+                            std::span<const Innovation> innovations, const LandmarkTable& table) {
   wrong_.assign(innovations.size(), 0);
   for (std::size_t i = 0; i < innovations.size(); ++i) {
     if (!observations[i].id || innovations[i].outcome != Outcome::kMatched) continue;
@@ -144,7 +210,8 @@ bool FaultIsolation::wants_relocation() {
 std::vector<ObservedLandmark> FaultIsolation::contradicting() const {
   std::vector<ObservedLandmark> seen;
   for (const Contradiction& each : contradictions_)
-    if (const ObservedLandmark* at = doubted_.find(each.id); at && speaks_of_the_robot(each)) seen.push_back(*at);
+    if (const ObservedLandmark* at = doubted_.find(each.id); at && speaks_of_the_robot(each))
+      seen.push_back(*at);
   return seen;
 }
 
@@ -163,6 +230,8 @@ void FaultIsolation::relocated() {
   asked_at_ = 0;
   ++support_;
   doubted_.clear();
+  waiting_.clear();
+  waiting_since_m_.clear();
   contradictions_.clear();
 }
 

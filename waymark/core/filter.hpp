@@ -20,13 +20,14 @@ enum class Outcome : std::uint8_t {
   kAdded,         ///< became a new landmark
   kGated,         ///< too far from where its landmark was expected: a misread identity or a wild measurement
   kUnidentified,  ///< carries no identity, and this filter was told that identities are known
-  kUnusable,   ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
-  kAmbiguous,  ///< without identity, and neither surely of a landmark nor surely of none
-  kDuplicate,  ///< a second observation of one landmark in one scan
-  kDeferred,   ///< kept until it can be told, with others, where its landmark is
-  kMapFull,    ///< would have been a new landmark, but there is no room
+  kUnusable,    ///< not finite, out of the sensor's range, of a kind the filter cannot use, or S not positive
+  kAmbiguous,   ///< without identity, and neither surely of a landmark nor surely of none
+  kDuplicate,   ///< a second observation of one landmark in one scan
+  kDeferred,    ///< kept until it can be told, with others, where its landmark is
+  kMapFull,     ///< would have been a new landmark, but there is no room
   kNotInMap,    ///< of no landmark of a map that is held as it is
   kDistrusted,  ///< of a landmark that was found at several places: it moves, or two bear its identity
+  kUncorroborated,  ///< of a landmark not seen for long; waits for another one to be where this one says
 };
 
 [[nodiscard]] const char* describe(Outcome outcome);

@@ -194,6 +194,8 @@ void EkfSlam::isolate_faults(std::span<const Observation> observations) {
                         [&](const Motion& added_motion) { gate_again(added_motion, observations); });
     return;
   }
+  faults_.corroborate(observations, innovations_, map_.table(),
+                      [this](int a, int b) { return map_.apart(a, b); });
   faults_.review(observations, innovations_, map_.table());
   if (!faults_.wants_relocation()) return;
   if (const auto motion = faults_.find_motion(map_.save(), state().pose().T_world_robot)) {
@@ -202,7 +204,8 @@ void EkfSlam::isolate_faults(std::span<const Observation> observations) {
   }
 }
 
-/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be anywhere.
+/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be
+/// anywhere.
 void EkfSlam::begin_anew_where_wrong(std::size_t index) {
   if (held_ || innovations_[index].outcome != Outcome::kGated || !faults_.is_landmark_wrong(index)) return;
   const auto landmark = map_.table().find(innovations_[index].landmark);

@@ -124,9 +124,11 @@ void FastSlam::gate() {
   isolate_faults();
 }
 
-/// The robot's fault is mended at once, by a motion that is still to be drawn; that of landmarks when the others
-/// have corrected the particles.
+/// The robot's fault is mended at once, by a motion that is still to be drawn; that of landmarks when the
+/// others have corrected the particles.
 void FastSlam::isolate_faults() {
+  faults_.corroborate(scan_.observations, scan_.innovations, belief_.landmarks,
+                      [this](int a, int b) { return fastslam::apart(belief_, a, b); });
   faults_.review(scan_.observations, scan_.innovations, belief_.landmarks);
   if (!faults_.wants_relocation()) return;
   const auto motion = faults_.find_motion(save(), pose().T_world_robot);
@@ -138,7 +140,8 @@ void FastSlam::isolate_faults() {
   faults_.relocated();
 }
 
-/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be anywhere.
+/// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be
+/// anywhere.
 void FastSlam::begin_anew_where_wrong(std::size_t index) {
   if (!scan_.is(index, Outcome::kGated) || !faults_.is_landmark_wrong(index)) return;
   Innovation& innovation = scan_.innovations[index];

@@ -19,6 +19,7 @@
 #include "workshop/figures/consistency.hpp"
 #include "workshop/figures/contact_sheet.hpp"
 #include "workshop/figures/desk.hpp"
+#include "workshop/figures/faults.hpp"
 #include "workshop/figures/forest.hpp"
 #include "workshop/figures/initialise.hpp"
 #include "workshop/figures/markers.hpp"
@@ -241,6 +242,7 @@ int main(int argc, char** argv) {
   waymark::add_contact_sheet(app, status);
   waymark::add_desk(app, status);
   waymark::add_initialise(app, status);
+  waymark::add_faults(app);
   waymark::add_forest(app);
   waymark::add_markers(app, status);
   waymark::add_observe(app);
