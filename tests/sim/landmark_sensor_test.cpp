@@ -175,15 +175,5 @@ TEST(SimLandmarkSensor, NeverReportsANegativeRange) {
   }
 }
 
-TEST(SimLandmarkSensor, HidesIdentities) {
-  SensorOptions options;
-  options.identities = false;
-  options.false_probability = 1.0;
-  const auto seen = scan_once(options, {}, {landmark(0, 2.0, 0.0)});
-  ASSERT_EQ(seen.size(), 2u);
-  EXPECT_FALSE(seen[0].id.has_value());
-  EXPECT_FALSE(seen[1].id.has_value());
-}
-
 }  // namespace
 }  // namespace waymark::sim

@@ -1,0 +1,243 @@
+#include "waymark/association/fault_isolation.hpp"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "waymark/core/gaussian.hpp"
+
+namespace waymark {
+namespace {
+
+LandmarkId marker(int number) { return {LandmarkId::Family::kMarker, number}; }
+
+Observation seen(int number, double range_m, double bearing_rad = 0.0) {
+  return {marker(number), RangeBearing{range_m, bearing_rad},
+          Eigen::Matrix2d(Eigen::Vector2d(1e-4, 1e-4).asDiagonal())};
+}
+
+/// A table of landmarks of the first scan, and the scans that follow it.
+class FaultIsolationTest : public ::testing::Test {
+ protected:
+  void add(int number, int observations = 5) {
+    if (table_.scan() == 0) table_.begin_scan();
+    table_.append({.id = marker(number), .observations = observations});
+  }
+
+  /// One scan: each observation with what the gate said.
+  void scan(const std::vector<std::pair<Observation, Outcome>>& told) {
+    table_.begin_scan();
+    observations_.clear();
+    innovations_.clear();
+    for (const auto& [observation, outcome] : told) {
+      observations_.push_back(observation);
+      innovations_.push_back({.landmark = *observation.id, .outcome = outcome, .dof = 2});
+    }
+    faults_.review(observations_, innovations_, table_);
+  }
+  void gated(int number, double range_m, double bearing_rad = 0.0) {
+    scan({{seen(number, range_m, bearing_rad), Outcome::kGated}});
+  }
+  void accepted(int number) { scan({{seen(number, 2.0), Outcome::kMatched}}); }
+
+  FaultIsolation faults_{LandmarkSensor{}};
+  LandmarkTable table_{64};
+  std::vector<Observation> observations_;
+  std::vector<Innovation> innovations_;
+};
+
+TEST_F(FaultIsolationTest, TwoThatAgreeOutweighASingleFirstObservation) {
+  add(1, 1);
+  gated(1, 3.0);
+  EXPECT_FALSE(faults_.is_landmark_wrong(0));
+  gated(1, 3.001);
+  EXPECT_TRUE(faults_.is_landmark_wrong(0));
+  EXPECT_EQ(faults_.false_firsts(), 1);
+}
+
+TEST_F(FaultIsolationTest, OutliersThatContradictEachOtherProveNothing) {
+  add(1, 1);
+  for (const double range_m : {3.0, 5.0, 1.0, 4.0}) {
+    gated(1, range_m);
+    EXPECT_FALSE(faults_.is_landmark_wrong(0)) << range_m;
+  }
+}
+
+TEST_F(FaultIsolationTest, AgreementIsByOdometry) {
+  add(1, 1);
+  gated(1, 3.0);
+  faults_.predict({{1.0, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-6, 0.1});
+  gated(1, 3.0);  // was expected at 2 m
+  EXPECT_FALSE(faults_.is_landmark_wrong(0));
+  faults_.predict({{1.0, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-6, 0.1});
+  gated(1, 2.0);
+  EXPECT_TRUE(faults_.is_landmark_wrong(0));
+}
+
+TEST_F(FaultIsolationTest, AnAcceptedObservationEndsAContradiction) {
+  add(1, 1);
+  gated(1, 3.0);
+  accepted(1);
+  gated(1, 3.0);
+  EXPECT_FALSE(faults_.is_landmark_wrong(0));
+}
+
+TEST_F(FaultIsolationTest, OneLandmarkAgainstOthersWasCarried) {
+  add(1);
+  add(2);
+  gated(1, 3.0);
+  for (int i = 0; i < 3; ++i) accepted(2);
+  gated(1, 3.0);
+  EXPECT_FALSE(faults_.is_landmark_wrong(0));
+  gated(1, 3.0);
+  EXPECT_TRUE(faults_.is_landmark_wrong(0));
+  EXPECT_FALSE(faults_.is_robot_lost());
+  ASSERT_EQ(faults_.carried().size(), 1U);
+  EXPECT_EQ(faults_.carried()[0], marker(1));
+  EXPECT_FALSE(faults_.is_distrusted(marker(1)));
+}
+
+TEST_F(FaultIsolationTest, OneLandmarkAloneIsNobodysFault) {
+  add(1);
+  for (int i = 0; i < 20; ++i) {
+    gated(1, 3.0);
+    EXPECT_FALSE(faults_.is_landmark_wrong(0));
+    EXPECT_FALSE(faults_.is_robot_lost());
+  }
+}
+
+TEST_F(FaultIsolationTest, ALandmarkThatIsFoundElsewhereAgainIsDistrusted) {
+  add(1);
+  add(2);
+  for (const double range_m : {3.0, 2.0}) {
+    gated(1, range_m);
+    for (int i = 0; i < 3; ++i) accepted(2);
+    gated(1, range_m);
+    gated(1, range_m);
+    EXPECT_TRUE(faults_.is_landmark_wrong(0));
+  }
+  EXPECT_TRUE(faults_.is_distrusted(marker(1)));
+  EXPECT_FALSE(faults_.is_distrusted(marker(2)));
+}
+
+TEST_F(FaultIsolationTest, WhatALostRobotAddedSupportsNothing) {
+  add(1);
+  table_.begin_scan();
+  add(2);  // since then nothing of what was there before was observed
+  gated(1, 3.0);
+  for (int i = 0; i < 5; ++i) accepted(2);
+  gated(1, 3.0);
+  gated(1, 3.0);
+  EXPECT_FALSE(faults_.is_landmark_wrong(0));
+}
+
+TEST_F(FaultIsolationTest, SeveralLandmarksAgainstTheRobotMeanThatItIsLost) {
+  add(1);
+  add(2);
+  for (int i = 0; i < 3; ++i) gated(1, 3.0);
+  EXPECT_FALSE(faults_.is_robot_lost());
+  gated(2, 3.0, 1.0);
+  EXPECT_FALSE(faults_.is_robot_lost());
+  gated(2, 3.0, 1.0);
+  EXPECT_TRUE(faults_.is_robot_lost());
+  EXPECT_TRUE(faults_.wants_relocation());
+  EXPECT_FALSE(faults_.wants_relocation());
+}
+
+TEST_F(FaultIsolationTest, AnAcceptedObservationBetweenThemMeansThatItIsNot) {
+  add(1);
+  add(2);
+  add(3);
+  for (int i = 0; i < 3; ++i) gated(1, 3.0);
+  accepted(3);
+  for (int i = 0; i < 3; ++i) gated(2, 3.0, 1.0);
+  EXPECT_FALSE(faults_.is_robot_lost());
+}
+
+TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMap) {
+  MapState map;
+  map.ids = {marker(1), marker(2), marker(3)};
+  map.observations = {9, 9, 9};
+  map.landmarks.resize(6);
+  map.landmarks << 2.0, 0.0, 3.0, 1.0, 1.0, 2.0;
+  map.covariance = Eigen::MatrixXd::Identity(9, 9) * 1e-6;
+  const Pose2 T_world_robot{0.5, -0.5, 1.0};  // where it really is
+  for (int number = 1; number <= 3; ++number) add(number);
+  for (int i = 0; i < 2; ++i)
+    for (int number = 1; number <= 3; ++number) {
+      const Eigen::Vector2d p = T_world_robot.inverse() * Eigen::Vector2d(map.landmarks.segment<2>(2 * number - 2));
+      gated(number, p.norm(), std::atan2(p.y(), p.x()));
+    }
+  ASSERT_TRUE(faults_.is_robot_lost());
+  const Pose2 believed{3.0, 4.0, -2.0};
+  const auto motion = faults_.find_motion(map, believed);
+  ASSERT_TRUE(motion);
+  const Pose2 found = believed * motion->increment;
+  EXPECT_NEAR(found.x_m, T_world_robot.x_m, 1e-6);
+  EXPECT_NEAR(found.y_m, T_world_robot.y_m, 1e-6);
+  EXPECT_NEAR(found.theta_rad, T_world_robot.theta_rad, 1e-6);
+  // Places that are unsure by 1 cm each give a pose of about a centimetre, told as three times that.
+  EXPECT_GT(motion->covariance(0, 0), 1e-5);
+  EXPECT_LT(motion->covariance(0, 0), 9e-3);
+  faults_.relocated();
+  EXPECT_FALSE(faults_.is_robot_lost());
+
+  map.landmarks[0] = 9.0;
+  map.landmarks[3] = 9.0;
+  EXPECT_FALSE(faults_.find_motion(map, believed));
+}
+
+/// Of what was expected with this covariance.
+Innovation accepted_of(int number, double variance) {
+  Innovation innovation{.landmark = marker(number), .outcome = Outcome::kMatched, .dof = 2};
+  innovation.log_density = log_gaussian<2>(0.0, Eigen::Matrix2d::Identity() * variance);
+  return innovation;
+}
+
+TEST_F(FaultIsolationTest, WhatIsExpectedVaguelyWaitsForAnotherAsFarAwayAsInTheMap) {
+  add(1);
+  add(2);
+  const auto apart = [](int, int) {
+    return FaultIsolation::Apart{{0.0, 1.0}, Eigen::Matrix2d::Identity() * 1e-6};
+  };
+  std::vector<Observation> observations{seen(1, 3.0)};
+  std::vector<Innovation> innovations{accepted_of(1, 0.04)};
+  faults_.corroborate(observations, innovations, table_, apart);
+  EXPECT_EQ(innovations[0].outcome, Outcome::kUncorroborated);
+
+  observations = {seen(2, 3.0, 1.0)};  // 2.9 m away from the first, not 1 m
+  innovations = {accepted_of(2, 0.04)};
+  faults_.corroborate(observations, innovations, table_, apart);
+  EXPECT_EQ(innovations[0].outcome, Outcome::kUncorroborated);
+
+  observations = {seen(2, 3.0, 0.335)};  // 1 m away
+  innovations = {accepted_of(2, 0.04)};
+  faults_.corroborate(observations, innovations, table_, apart);
+  EXPECT_EQ(innovations[0].outcome, Outcome::kMatched);
+}
+
+TEST_F(FaultIsolationTest, WhatIsExpectedAtAPlaceDoesNotWait) {
+  add(1);
+  add(2);
+  const auto apart = [](int, int) { return FaultIsolation::Apart{}; };
+  std::vector<Observation> observations{seen(1, 3.0), seen(2, 3.0, 1.0)};
+  std::vector<Innovation> innovations{accepted_of(1, 2e-4), accepted_of(2, 0.04)};
+  faults_.corroborate(observations, innovations, table_, apart);
+  EXPECT_EQ(innovations[0].outcome, Outcome::kMatched);
+  EXPECT_EQ(innovations[1].outcome, Outcome::kMatched);  // the first ties the robot to the map
+}
+
+TEST_F(FaultIsolationTest, WhatIsSeenAloneForLongIsUsed) {
+  add(1);
+  const auto apart = [](int, int) { return FaultIsolation::Apart{}; };
+  const std::vector<Observation> observations{seen(1, 3.0)};
+  for (int i = 0; i < 4; ++i) {
+    std::vector<Innovation> innovations{accepted_of(1, 0.04)};
+    faults_.corroborate(observations, innovations, table_, apart);
+    EXPECT_EQ(innovations[0].outcome, i < 3 ? Outcome::kUncorroborated : Outcome::kMatched) << i;
+    faults_.predict({{0.9, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-6, 0.1});
+  }
+}
+
+}  // namespace
+}  // namespace waymark
