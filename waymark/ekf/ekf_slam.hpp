@@ -59,7 +59,7 @@ class EkfSlam final : public Filter {
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
-  [[nodiscard]] PoseEstimate pose() const override { return state().pose(); }
+  [[nodiscard]] PoseEstimate pose() const override { return state().active().pose(); }
   [[nodiscard]] Snapshot snapshot() const override { return map_.snapshot(); }
   [[nodiscard]] MapState save() const override { return map_.save(); }
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
@@ -90,7 +90,7 @@ class EkfSlam final : public Filter {
   void gate_again(const Motion& added_motion, std::span<const Observation> observations);
   void update(std::span<const Observation> observations);
   void collect(std::size_t index, const Observation& observation);
-  void settle_unknown(std::span<const Observation> observations);
+  void classify_unmatched(std::span<const Observation> observations);
   void judge_landmarks();
   void add(std::size_t index, const Observation& observation);
   [[nodiscard]] std::optional<ekf::LinearizedObservation> linearize(std::size_t index,

@@ -37,8 +37,7 @@ namespace waymark {
 ///
 /// Robust where the plain filter starves:
 /// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
-/// moves them
-///   instead (fastslam::ScanUpdate).
+///   moves them instead (fastslam::ScanUpdate).
 /// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). A
 ///   set that refuses several in a row is itself what is wrong, and has to accept again (Recovery).
 /// * Weights never collapse onto a few particles (fastslam::AdaptiveResampling).
@@ -64,10 +63,6 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return belief_.calibration; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
-  /// How often an observation moved the particles instead of weighing them.
-  [[nodiscard]] std::int64_t enkf_updates() const { return update_.enkf_updates(); }
-  /// How often the robot was lost and recovered: see Recovery.
-  [[nodiscard]] std::int64_t recoveries() const { return recovery_.recoveries(); }
   /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }
 
