@@ -7,17 +7,15 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 page=docs/glossary.md
 [ -f "$page" ] || { echo "$page:1: is missing"; exit 1; }
 
-# Where a word is in its place: path, word, reason. `*` stands for any path.
+# Where a word is in its place: beginning of the path, word or `*` for any, reason.
 exceptions='
 .clang-tidy            unnamed    a parameter without a name
 tests/bags/            leg        joints of a walking robot
 CHANGELOG.md           *          names things as they were called at the time
 workbench/logs/map_forms.cpp  sighting  key of the JSON form of a map, which older programs read
 docs/map-format.md     sighting   describes that key
-workbench/run/former_keys     *   keys that were renamed
-workbench/config/former_keys  *   keys that were renamed
-tests/run/former_keys         *   keys that were renamed
-tests/config/former_keys      *   keys that were renamed
+workbench/config/former_keys  *  keys that were renamed
+tests/config/former_keys      *  keys that were renamed
 '
 
 # Rows of the table: | `word` | term |. A word stands for itself as a whole; `*` before or behind it for what it is part of, a
@@ -54,7 +52,7 @@ found=$(tr '\n' '\0' <<<"$files" | xargs -0 grep -nIiE -- "$all" 2>/dev/null || 
       gsub(/^[^a-z0-9]+|[^a-z0-9]+$/, "", word)
       allowed = 0
       for (k in where)
-        if ((where[k] == "*" || index(file, where[k]) == 1) && (which[k] == "*" || index(word, which[k]))) allowed = 1
+        if (index(file, where[k]) == 1 && (which[k] == "*" || index(word, which[k]))) allowed = 1
       if (!allowed) { print file ":" number ": `" word "`: the term is " term[i] " (docs/glossary.md)"; offences = 1 }
     }
   }

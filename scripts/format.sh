@@ -11,5 +11,5 @@ esac
 # One version, because versions disagree about layout.
 formatter=clang-format-14
 echo "format: $formatter ${mode[*]}"
-git ls-files -z --cached --others --exclude-standard -- '*.cpp' '*.hpp' |
+git ls-files -z --cached --others --exclude-standard -- '*.cpp' '*.hpp' '*-inl.h' |
   xargs -0 -r -n 20 -P 2 "$formatter" "${mode[@]}"

@@ -16,20 +16,31 @@ digest() { { find "$@" -type f -print0 2>/dev/null || true; } | sort -z | xargs 
 
 # state_of FOLDER: a digest of all that the outcome of its tests depends on.
 state_of() {
-  local programs=("$build/tests/$1/waymark_$1_test")
+  local read=("$build/tests/$1/waymark_$1_test")
   case $1 in
-    figures | golden | program) programs+=("$build/waymark" "$build/waymark-figures" tests/bags/writers) ;;
+    figures | golden | program) read+=("$build/waymark" "$build/waymark-figures" tests/bags/writers) ;;
+    kernels) read+=("$build/tests/$1/waymark_integer_checksums" scripts/check_arm.sh) ;;
+    run) read+=(docs) ;;
   esac
-  echo "$(digest "${programs[@]}" "tests/$1") $common"
+  echo "$(digest "${read[@]}" "tests/$1") $common"
 }
 
-# any_of NAMES...: a pattern of the names of their tests.
-any_of() { echo "^($(IFS='|' && echo "$*"))(\\.|\$)"; }
+# tools: which of those are there without which tests are skipped.
+tools() {
+  command -v aarch64-linux-gnu-g++ qemu-aarch64-static mpirun node chromium chromium-browser google-chrome
+  ls -d web/node_modules/@mcap
+  /usr/bin/python3 -c 'import rosbag; print(rosbag.__file__)'
+} 2>/dev/null
+
+# either NAMES...: a pattern of any of them.
+either() { (IFS='|' && echo "($*)"); }
+# tests_of FOLDERS...: a pattern of the names of their tests.
+tests_of() { echo "^$(either "$@")(\\.|\$)"; }
 
 # The tests of these folders, less those that need not run again.
 selected=()
 if [ ${#folders[@]} -gt 0 ]; then
-  selected=(-R "$(any_of "${folders[@]}")")
+  selected=(-R "$(tests_of "${folders[@]}")")
 else
   for list in tests/*/CMakeLists.txt; do
     folder=$(basename "$(dirname "$list")")
@@ -41,12 +52,14 @@ fi
 common=$({
   digest configs tests/support web/package-lock.json "$build"/*.so
   { find -L "$data" -type f -printf '%p %s %T@\n' 2>/dev/null || true; } | sort
-} | sha256sum)
+  tools || true
+} | sha256sum | cut -d ' ' -f 1)
 now=$(for folder in "${folders[@]}"; do echo "$folder $(state_of "$folder")"; done)
 mapfile -t unchanged < <(comm -12 <(sort "$passed" 2>/dev/null) <(sort <<<"$now") | cut -d ' ' -f 1)
 if [ ${#unchanged[@]} -gt 0 ]; then
-  selected+=(-E "$(any_of "${unchanged[@]}")")
+  selected+=(-E "$(tests_of "${unchanged[@]}")")
   echo "not run again, unchanged since they passed: ${unchanged[*]}"
 fi
 ctest --preset "$preset" "${selected[@]}" | tee "$build/ctest.log"
-echo "$now" >"$passed"
+{ grep -vE "^$(either "${folders[@]}") " "$passed" 2>/dev/null || true; echo "$now"; } >"$passed.new"
+mv "$passed.new" "$passed"

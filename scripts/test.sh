@@ -4,10 +4,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# The folders of the engine and the workbench: their tests also run under the sanitizers of memory and of undefined behaviour.
-all=(core models kernels association ekf fastslam smooth vision slam markers
-     config logs bags datasets sim run eval study calibrate report)
-
 # step TEXT: announces what comes, with the seconds since the start.
 step() { printf '\n== %s (at %s s)\n' "$1" "$SECONDS"; }
 
@@ -17,15 +13,6 @@ build() {
   shift
   cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" ${1:+--target "$@"} -- --quiet
-}
-
-# sanitize PRESET FOLDERS...: builds and runs the tests of these folders.
-sanitize() {
-  local preset=$1
-  shift
-  local targets=("${@/#/waymark_}")
-  build "$preset" "${targets[@]/%/_test}"
-  scripts/run_tests.sh "$preset" "$@"
 }
 
 step "set-up"
@@ -44,7 +31,10 @@ scripts/run_tests.sh ci
 step "pages"
 npm test --prefix web
 step "address and undefined-behaviour sanitizers"
-sanitize asan "${all[@]}"
+mapfile -t folders < <(find waymark workbench -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort)
+targets=("${folders[@]/#/waymark_}")
+build asan "${targets[@]/%/_test}"
+scripts/run_tests.sh asan "${folders[@]}"
 step "lint of what differs from origin/main"
 if git rev-parse --quiet --verify origin/main >/dev/null; then
   scripts/tidy.sh origin/main

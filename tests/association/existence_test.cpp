@@ -6,8 +6,7 @@ namespace waymark {
 namespace {
 
 AssociationModel model() {
-  return {{.false_alarm_probability = 0.02, .confirmed_log_odds = 6.0, .max_log_odds = 12.0},
-          {.max_range_m = 10.0, .detection_probability = 0.9}};
+  return {{.false_alarm_probability = 0.02}, {.max_range_m = 10.0, .detection_probability = 0.9}};
 }
 
 TEST(Existence, IsTentativeUntilSeenAgain) {

@@ -35,7 +35,7 @@ TEST(NoiseOf, CountsWhatWasNotFollowed) {
     observations.push_back({RangeBearing{range_m, random.uniform(-1.0, 1.0)},
                             {left, 4.0 * variance.cwiseProduct(followed), 4.0 * variance}});
   }
-  observations[7].remainder.residual[0] = 3.0;
+  observations[7].postfit.residual[0] = 3.0;
   const SensorNoise noise = noise_of(observations);
   EXPECT_GE(noise.outliers, 1);
   EXPECT_NEAR(noise.range->sigma_m.value, 0.02, 4.0 * noise.range->sigma_m.sigma);
@@ -60,10 +60,10 @@ TEST(OdometryVarianceOf, IsAgainstWhatWasStated) {
   RandomStream random(2, StreamPurpose::kWorld);
   constexpr int kCount = 3000;
   const Eigen::Vector3d larger(2.0, 1.0, 0.5);
-  std::vector<smooth::IntervalRemainder> intervals;
+  std::vector<smooth::IntervalResidual> intervals;
   for (int i = 0; i < kCount; ++i) {
     const Eigen::Vector3d stated(1e-4, 4e-4, 9e-4);
-    smooth::IntervalRemainder interval{.followed = 0.5 * stated, .stated = stated};
+    smooth::IntervalResidual interval{.followed = 0.5 * stated, .stated = stated};
     for (Eigen::Index k = 0; k < 3; ++k)
       interval.residual[k] = larger[k] * std::sqrt(0.5 * stated[k]) * random.normal();
     intervals.push_back(interval);

@@ -69,6 +69,31 @@ TEST(MigrateConfig, KeepsOneOfTwoThatBecameOne) {
             "values; keep one of them");
 }
 
+TEST(MigrateConfig, RefusesTwoValuesOfOneKeyWhereverTheyStand) {
+  const std::string in_place = "pixel:\n  most_candidates: 16\n";
+  const std::string from_elsewhere = "tracker:\n  most_candidates: 20\n";
+  EXPECT_EQ(migrated(in_place + from_elsewhere),
+            "old.yaml:4: tracker.most_candidates is now pixel.max_candidates, which this file sets twice, to "
+            "different values; keep one of them");
+  EXPECT_THAT(migrated(from_elsewhere + in_place), HasSubstr("old.yaml:4: pixel.most_candidates is now"));
+  EXPECT_THAT(migrated("ekf:\n  capacity: 50\nmap:\n  capacity: 60\n"),
+              HasSubstr("old.yaml:2: ekf.capacity is now map.capacity, which this file sets twice"))
+      << "beside the key of today, before it";
+  EXPECT_THAT(migrated("pixel:\n  max_candidates: 16\n  most_candidates: 17\n"),
+              HasSubstr("old.yaml:3: pixel.most_candidates is now pixel.max_candidates, which"));
+}
+
+TEST(MigrateConfig, WritesAValueOnce) {
+  EXPECT_EQ(migrated("pixel:\n  most_candidates: 16\ntracker:\n  most_candidates: 16\n"),
+            "pixel:\n  max_candidates: 16\n"
+            "tracker:\n  # most_candidates: 16  # tracker.most_candidates is now pixel.max_candidates\n");
+  EXPECT_EQ(migrated("ekf.capacity: 60\nmap.capacity: 60\n"),
+            "# ekf.capacity: 60  # ekf.capacity is now map.capacity\nmap.capacity: 60\n");
+  EXPECT_EQ(migrated("ekf.capacity: 60\npixel.capacity: 60\n"),
+            "# ekf.capacity: 60  # ekf.capacity is now map.capacity\n"
+            "# pixel.capacity: 60  # pixel.capacity is now map.capacity\nmap.capacity: 60\n");
+}
+
 TEST(MigrateConfig, RefusesALineThatHoldsMore) {
   EXPECT_EQ(migrated("ekf: {capacity: 50, likelihood: student}\n"),
             "old.yaml:1: ekf.capacity is now map.capacity; this line holds more than that key, so change it "

@@ -49,8 +49,8 @@ TEST(Belief, ObservationsHaveInCommonWhatTheDenseFormulaSays) {
   const LinearizedObservation a = random_observation(random, 3, 2);
   const LinearizedObservation b = random_observation(random, 1, 2);
   const StateLayout& layout = made->layout();
-  const Eigen::MatrixXd expected = test::dense(layout.touched(a, 2), made->size()) * made->covariance() *
-                                   test::dense(layout.touched(b, 2), made->size()).transpose();
+  const Eigen::MatrixXd expected = test::dense(layout.jacobian(a, 2), made->size()) * made->covariance() *
+                                   test::dense(layout.jacobian(b, 2), made->size()).transpose();
   EXPECT_TRUE(matrix_near(made->common_covariance(a, b), expected, 1e-14));
 }
 

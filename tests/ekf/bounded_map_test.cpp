@@ -22,12 +22,12 @@ const Eigen::Vector3d kCorner(4.0, 0.3, 0.6);
 
 /// An observation that tells the more about the pose, the larger `information`.
 PoseObservation telling(double information) {
-  PoseObservation linearization;
-  linearization.P_pose.setIdentity();
-  linearization.H_pose << information, 0.0, 0.0, 0.0, information, 0.0;
-  linearization.C_pose = linearization.H_pose.transpose();
-  linearization.S = (1.0 + information * information) * Eigen::Matrix2d::Identity();
-  return linearization;
+  PoseObservation observation;
+  observation.P_pose.setIdentity();
+  observation.H_pose << information, 0.0, 0.0, 0.0, information, 0.0;
+  observation.C_pose = observation.H_pose.transpose();
+  observation.S = (1.0 + information * information) * Eigen::Matrix2d::Identity();
+  return observation;
 }
 
 std::vector<LandmarkId> removed(const BoundedMap& map) {
@@ -52,14 +52,6 @@ TEST(BoundedMap, TheLeastUsefulOneThatIsNotInViewMakesRoom) {
   EXPECT_TRUE(world.map.removed().empty());
 }
 
-TEST(BoundedMap, WithoutEvictionAFullMapStaysAsItIs) {
-  PixelWorld world({.capacity = 3, .evict = Eviction::kNone});
-  world.load(test::wall(3));
-  world.map.begin_image();
-  EXPECT_FALSE(world.map.make_room());
-  EXPECT_EQ(world.map.map().features().size(), 3U);
-}
-
 TEST(BoundedMap, WhoKeepsFailingIsRetired) {
   PixelWorld world;
   world.load(test::wall(3));
@@ -82,13 +74,13 @@ TEST(BoundedMap, ARayBecomesAPointWhereItIsAsGoodAsLinear) {
   world.add_ray(0, kCorner, 0.2);
   world.add_ray(1, kCorner, 0.001);
   const Eigen::Vector3d here = world.here().p_world_camera;
-  world.map.settle(0, here);
-  world.map.settle(1, here);
+  world.map.convert_ray(0, here);
+  world.map.convert_ray(1, here);
   const PixelMap& map = world.map.map();
   EXPECT_FALSE(map.feature(0).is_point());
   ASSERT_TRUE(map.feature(1).is_point());
   EXPECT_TRUE(matrix_near(map.state().landmark(map.feature(1).element), kCorner, 1e-9));
-  world.map.settle(1, here);  // a point is settled
+  world.map.convert_ray(1, here);  // a point stays one
   EXPECT_TRUE(world.map.removed().empty());
 }
 
@@ -98,11 +90,11 @@ TEST(BoundedMap, ARayThatLeadsBehindInfinityGoes) {
   const int anchor = *world.map.map().add_anchor();
   const auto behind = [&](int number, double rho) {
     return world.map.add_ray(corner_id(number), anchor, {0.0, 0.0, rho},
-                             ray_covariance(1e-6 * Eigen::Matrix2d::Identity(), 0.1), {}, 1);
+                             ray_covariance(1e-6 * Eigen::Matrix2d::Identity(), 0.1), 1);
   };
-  world.map.settle(behind(0, -0.15), world.here().p_world_camera);
+  world.map.convert_ray(behind(0, -0.15), world.here().p_world_camera);
   EXPECT_EQ(world.map.map().features().size(), 1U) << "it may lead there by chance";
-  world.map.settle(behind(1, -0.25), world.here().p_world_camera);
+  world.map.convert_ray(behind(1, -0.25), world.here().p_world_camera);
   EXPECT_EQ(removed(world.map), std::vector{corner_id(1)});
 }
 
@@ -193,7 +185,7 @@ TEST(BoundedMap, AllocatesNothingOnceItIsMade) {
     ASSERT_TRUE(world.map.make_room());
     const int feature = world.add_ray(k, kCorner, k % 2 == 0 ? 0.2 : 0.001);
     world.map.matched(feature, telling(1.0));
-    world.map.settle(feature, world.here().p_world_camera);
+    world.map.convert_ray(feature, world.here().p_world_camera);
   }
   EXPECT_EQ(count.allocations(), 0);
 }

@@ -21,8 +21,8 @@ using test::matrix_near;
 /// A robot that wanders along a row of landmarks and back. It sees some of the nearest ones.
 class Wanderer {
  public:
-  explicit Wanderer(int dimension, int error_pairs = 0, std::uint64_t seed = 7)
-      : dimension_(dimension), error_pairs_(error_pairs), random_(seed, StreamPurpose::kWorld) {}
+  explicit Wanderer(int dimension, int bias_pairs = 0, std::uint64_t seed = 7)
+      : dimension_(dimension), error_pairs_(bias_pairs), random_(seed, StreamPurpose::kWorld) {}
 
   Motion move() {
     const Pose2 increment{random_.uniform(0.0, 0.3), random_.uniform(-0.02, 0.02),
@@ -56,9 +56,9 @@ class Wanderer {
   }
 
   /// Both terms of different pairs, if there are pairs.
-  ErrorTerms errors() {
-    ErrorTerms errors;
-    for (int k = 0; k < kErrorTerms && k < error_pairs_; ++k) {
+  BiasTerms errors() {
+    BiasTerms errors;
+    for (int k = 0; k < kBiasTerms && k < error_pairs_; ++k) {
       auto& error = errors[static_cast<std::size_t>(k)];
       error.pair = k == 0 ? 0 : 1 + static_cast<int>(random_.uniform() * (error_pairs_ - 1));
       for (auto& entry : error.J.reshaped()) entry = 0.1 * random_.normal();
@@ -93,7 +93,7 @@ constexpr Compression kSmallSubmaps{48, 48};
 struct CompressedCase {
   int dimension;
   Consistency consistency;
-  int error_pairs = 0;
+  int bias_pairs = 0;
 };
 
 /// The same operations on a compressed and on a whole state.
@@ -101,15 +101,15 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
  protected:
   CompressedAgainstWhole()
       : compressed_(GetParam().dimension, kCapacity, GetParam().consistency, kSmallSubmaps, 1,
-                    GetParam().error_pairs),
-        whole_(GetParam().dimension, kCapacity, GetParam().consistency, 1, GetParam().error_pairs),
-        wanderer_(GetParam().dimension, GetParam().error_pairs) {}
+                    GetParam().bias_pairs),
+        whole_(GetParam().dimension, kCapacity, GetParam().consistency, 1, GetParam().bias_pairs),
+        wanderer_(GetParam().dimension, GetParam().bias_pairs) {}
 
   void step(int step, double innovation = 0.05) {
     const Motion motion = wanderer_.move();
     compressed_.predict(motion);
     whole_.predict(motion);
-    if (GetParam().error_pairs > 0) propagate();
+    if (GetParam().bias_pairs > 0) propagate();
     const double what = wanderer_.random().uniform();
     if (whole_.landmarks() < kCapacity && (what < 0.35 || whole_.landmarks() == 0)) return add();
     if (what > 0.97) return remove(static_cast<int>(wanderer_.random().uniform() * whole_.landmarks()));
@@ -117,16 +117,16 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
     for (const LinearizedObservation& s : linearizations)
       EXPECT_TRUE(
           matrix_near(compressed_.innovation_covariance(s), whole_.innovation_covariance(s), tolerance_));
-    const bool unsettled = !compressed_.settled();
+    const bool working = !compressed_.is_up_to_date();
     const bool entering = std::ranges::any_of(
         linearizations, [&](const LinearizedObservation& s) { return !compressed_.is_active(s.landmark); });
-    if (unsettled && entering) ++entered_unsettled_;
+    if (working && entering) ++entered_at_work_;
     ASSERT_TRUE(compressed_.update(linearizations));
     ASSERT_TRUE(whole_.update(linearizations));
   }
 
   void propagate() {
-    const int pair = static_cast<int>(wanderer_.random().uniform() * GetParam().error_pairs);
+    const int pair = static_cast<int>(wanderer_.random().uniform() * GetParam().bias_pairs);
     const double rho = wanderer_.random().uniform();
     compressed_.propagate_bias(pair, rho);
     whole_.propagate_bias(pair, rho);
@@ -136,7 +136,7 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
     const Eigen::Vector3d position = wanderer_.position();
     const Eigen::Matrix3d G = wanderer_.jacobian();
     const Eigen::Matrix3d noise = test::random_covariance<3>(wanderer_.random(), 0.01);
-    const ErrorTerms errors = wanderer_.errors();
+    const BiasTerms errors = wanderer_.errors();
     ASSERT_EQ(compressed_.add(position, G, noise, errors), whole_.add(position, G, noise, errors));
   }
 
@@ -157,7 +157,7 @@ class CompressedAgainstWhole : public testing::TestWithParam<CompressedCase> {
   }
 
   double tolerance_ = 1e-9;
-  int entered_unsettled_ = 0;  // updates that brought a landmark in while the last submap was being worked on
+  int entered_at_work_ = 0;  // updates that brought a landmark in while the last submap was being worked on
   CompressedState compressed_;
   State whole_;
   Wanderer wanderer_;
@@ -173,7 +173,7 @@ TEST_P(CompressedAgainstWhole, StaysEqualOverThousandsOfStepsAndManySubmaps) {
     if (HasFailure()) FAIL() << "at step " << i;
   }
   EXPECT_GT(compressed_.closed_submaps(), 10);
-  EXPECT_GT(entered_unsettled_, 10);
+  EXPECT_GT(entered_at_work_, 10);
   EXPECT_TRUE(is_covariance(compressed_.covariance()));
 }
 

@@ -7,7 +7,9 @@
 
 #include "support/matrix_near.hpp"
 #include "support/poses.hpp"
+#include "waymark/core/aligned_array.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/ekf/state_layout.hpp"
 
 #include "random_observations.hpp"
 
@@ -35,12 +37,12 @@ class CovarianceTest : public testing::Test {
   }
 
   /// Depends on the robot and the values 5 and 6.
-  [[nodiscard]] Touched any_jacobian() {
+  [[nodiscard]] SparseJacobian any_jacobian() {
     Eigen::Matrix<double, 2, 3> J;
     for (auto& entry : J.reshaped()) entry = random_.normal();
-    Touched touched(J, {}, 2);
-    touched.set_landmark(3, 5, 2, J);
-    return touched;
+    SparseJacobian jacobian(J, {}, 2);
+    jacobian.set_landmark(3, 5, 2, J);
+    return jacobian;
   }
 
   RandomStream random_{1, StreamPurpose::kWorld};
@@ -64,23 +66,54 @@ TEST_F(CovarianceTest, AnswersAsIfTheRobotsRowsWereJoined) {
   EXPECT_EQ(now(), deferred);
 }
 
+/// Of a 3-D landmark that is relative to two anchors, with as many biases as there may be.
+TEST(Covariance, ProjectsTheLargestObservation) {
+  RandomStream random(2, StreamPurpose::kWorld);
+  const StateLayout layout{3, bias_offset(kBiasTerms), 4};
+  LinearizedObservation linearization = test::random_observation(random, 3, 3);
+  linearization.anchor = 0;
+  linearization.second_anchor = 2;
+  for (auto& entry : linearization.H_second_anchor.reshaped()) entry = random.normal();
+  for (int pair = 0; pair < kBiasTerms; ++pair) {
+    BiasTerm& term = linearization.errors[static_cast<std::size_t>(pair)];
+    term.pair = pair;
+    for (auto& entry : term.J.reshaped()) entry = random.normal();
+  }
+  const SparseJacobian jacobian = layout.jacobian(linearization, 2);
+  ASSERT_EQ(jacobian.size(), std::size_t{SparseJacobian::kMaxRows});
+  constexpr int kSize = 9 + 3 * 4;
+  ASSERT_EQ(layout.size(), std::size_t{kSize});
+  const Eigen::Matrix<double, kSize, kSize> dense_P = test::random_covariance<kSize>(random);
+  Covariance P(kSize, kSize);
+  for (std::size_t i = 0; i < kSize; ++i)
+    for (std::size_t j = i; j < kSize; ++j)
+      P.row(i)[j] = dense_P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  AlignedArray<double> C(2 * P.stride());
+  P.project(jacobian, C.data(), P.stride());
+  const Eigen::MatrixXd expected = dense(jacobian, kSize) * dense_P;
+  for (int row = 0; row < 2; ++row)
+    for (int j = 0; j < kSize; ++j)
+      EXPECT_NEAR(C[static_cast<std::size_t>(row) * P.stride() + static_cast<std::size_t>(j)],
+                  expected(row, j), 1e-11);
+}
+
 TEST_F(CovarianceTest, AppendsWhatIsLinear) {
-  const Touched touched = any_jacobian();
+  const SparseJacobian jacobian = any_jacobian();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
   noise.topLeftCorner<2, 2>() = test::random_covariance<2>(random_);
-  P_.append(P_.derive(touched, noise));
+  P_.append(P_.derive(jacobian, noise));
   Eigen::MatrixXd F(kValues + 2, kValues);
-  F << Eigen::MatrixXd::Identity(kValues, kValues), dense(touched, kValues);
+  F << Eigen::MatrixXd::Identity(kValues, kValues), dense(jacobian, kValues);
   Eigen::MatrixXd expected = F * before_ * F.transpose();
   expected.bottomRightCorner<2, 2>() += noise.topLeftCorner<2, 2>();
   EXPECT_TRUE(matrix_near(now(), expected, 1e-13));
 }
 
 TEST_F(CovarianceTest, PutsWhatIsLinearInThePlaceOfWhatItReplaces) {
-  const Touched touched = any_jacobian();
-  P_.replace(5, P_.derive(touched, Eigen::Matrix3d::Zero()));
+  const SparseJacobian jacobian = any_jacobian();
+  P_.replace(5, P_.derive(jacobian, Eigen::Matrix3d::Zero()));
   Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kValues, kValues);
-  F.middleRows<2>(5) = dense(touched, kValues);
+  F.middleRows<2>(5) = dense(jacobian, kValues);
   EXPECT_TRUE(matrix_near(now(), Eigen::MatrixXd(F * before_ * F.transpose()), 1e-13));
 }
 

@@ -50,7 +50,7 @@ class OneLandmark : public testing::TestWithParam<Part> {
     return observe();
   }
   [[nodiscard]] Outcome observe() {
-    const Eigen::Vector2d p = map_.state().pose().T_world_robot.inverse() * kPlace;
+    const Eigen::Vector2d p = map_.state().active().pose().T_world_robot.inverse() * kPlace;
     Observation observation{kId, Range{p.norm()}, Eigen::Matrix2d(1e-4 * Eigen::Matrix2d::Identity())};
     if (GetParam() == Part::kBearing) observation.value = Bearing{std::atan2(p.y(), p.x())};
     return initialiser_.observe(kId, observation);

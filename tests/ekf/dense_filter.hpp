@@ -19,9 +19,9 @@ class DenseFilter {
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  DenseFilter(int dimension, ekf::Consistency consistency, int error_pairs = 0)
+  DenseFilter(int dimension, ekf::Consistency consistency, int bias_pairs = 0)
       : dimension_(dimension),
-        head_(3 + 2 * error_pairs),
+        head_(3 + 2 * bias_pairs),
         consistency_(consistency),
         x_(Vector::Zero(head_)),
         P_(Matrix::Zero(head_, head_)),
@@ -74,7 +74,7 @@ class DenseFilter {
   }
 
   void add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
-           const ekf::ErrorTerms& errors = {}) {
+           const ekf::BiasTerms& errors = {}) {
     const int n = size();
     Matrix G = error_columns(errors, dimension_);
     G.leftCols(3) = G_pose.topRows(dimension_).cast<Scalar>();
@@ -96,9 +96,8 @@ class DenseFilter {
     x_.tail(3) = x_.head(3).eval();
   }
 
-  void add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
-                    const ekf::ErrorTerms& errors = {}) {
-    add(values, Eigen::Matrix3d::Zero(), noise, errors);
+  void add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise) {
+    add(values, Eigen::Matrix3d::Zero(), noise);
     relative_.back() = true;
   }
 
@@ -130,7 +129,7 @@ class DenseFilter {
   /// Of robot and landmarks.
   [[nodiscard]] Eigen::VectorXd mean() const { return x_(places()).cast<double>(); }
   [[nodiscard]] Eigen::MatrixXd covariance() const { return P_(places(), places()).cast<double>(); }
-  [[nodiscard]] Eigen::Vector2d errors(int pair) const { return x_.segment(3 + 2 * pair, 2).cast<double>(); }
+  [[nodiscard]] Eigen::Vector2d biases(int pair) const { return x_.segment(3 + 2 * pair, 2).cast<double>(); }
 
  private:
   struct Stack {
@@ -165,7 +164,7 @@ class DenseFilter {
     return places;
   }
 
-  [[nodiscard]] Matrix error_columns(const ekf::ErrorTerms& errors, int rows) const {
+  [[nodiscard]] Matrix error_columns(const ekf::BiasTerms& errors, int rows) const {
     Matrix J = Matrix::Zero(rows, size());
     for (const auto& error : errors)
       if (error.pair >= 0) J.middleCols(3 + 2 * error.pair, 2) += error.J.topRows(rows).cast<Scalar>();

@@ -20,7 +20,7 @@ const Eigen::Matrix2d kSmallNoise = 0.01 * Eigen::Matrix2d::Identity();
 /// A robot that drives past a corner, 2 cm an image, and weighs it in every one.
 struct PassingBy : PixelWorld {
   explicit PassingBy(const PixelSlamOptions& some = {})
-      : PixelWorld(some), options(some), initialiser(some, map, prediction) {
+      : PixelWorld(some), initialiser(some, map, prediction) {
     begin_image();
   }
   void begin_image() {
@@ -37,7 +37,6 @@ struct PassingBy : PixelWorld {
     return initialiser.weigh(corner_id(1), pixel(corner) + Eigen::Vector2d(off_px, 0.0), kSmallNoise);
   }
 
-  PixelSlamOptions options;
   DepthInitialiser initialiser;
   Eigen::Vector3d corner{2.5, 0.9, 0.8};
 };
@@ -48,13 +47,13 @@ TEST(DepthInitialiser, ACandidateThatIsSeenFromElsewhereBecomesARayOfItsDepth) {
   EXPECT_TRUE(world.initialiser.knows(corner_id(1)));
   int images = 1;
   for (; !world.initialiser.is_ready(corner_id(1)); ++images) {
-    ASSERT_LT(images, world.options.max_images);
+    ASSERT_LT(images, DepthInitialiser::kMaxImages);
     const auto expected = world.initialiser.expect();
     ASSERT_EQ(expected.size(), 1U);
     EXPECT_EQ(expected[0].id, corner_id(1));
     ASSERT_TRUE(world.weigh_in_next_image());
   }
-  EXPECT_GT(images, world.options.min_images);
+  EXPECT_GT(images, DepthInitialiser::kMinImages);
   const auto feature = world.initialiser.accept(corner_id(1));
   ASSERT_TRUE(feature);
   EXPECT_FALSE(world.initialiser.knows(corner_id(1)));
@@ -87,7 +86,7 @@ TEST(DepthInitialiser, FromOnePlaceDepthDoesNotShowAndTheArticleWaitsForIt) {
   for (const auto init : {Initialization::kDelayed, Initialization::kArticle}) {
     PassingBy world({.init = init});
     ASSERT_EQ(world.begin(1), Outcome::kAdded);
-    for (int images = 0; images < world.options.max_images; ++images) {
+    for (int images = 0; images < DepthInitialiser::kMaxImages; ++images) {
       EXPECT_FALSE(world.initialiser.is_ready(corner_id(1)));
       ASSERT_TRUE(world.initialiser.weigh(corner_id(1), world.pixel(world.corner), kSmallNoise));
     }
@@ -113,11 +112,11 @@ TEST(DepthInitialiser, WhoIsNotFoundOrTakesTooLongIsGivenUp) {
     ASSERT_EQ(world.begin(1), Outcome::kAdded);
     int images = 0;
     for (; world.initialiser.knows(corner_id(1)); ++images) {
-      ASSERT_LE(images, 2 * world.options.max_images);
+      ASSERT_LE(images, 2 * DepthInitialiser::kMaxImages);
       if (missed) world.initialiser.missed(corner_id(1));
       world.begin_image();
     }
-    EXPECT_EQ(images, missed ? 10 : 2 * world.options.max_images + 1);
+    EXPECT_EQ(images, missed ? 10 : 2 * DepthInitialiser::kMaxImages + 1);
     ASSERT_EQ(world.map.removed().size(), 1U);
     EXPECT_EQ(world.map.removed()[0], corner_id(1));
     EXPECT_EQ(world.map.map().state().landmarks(), 0) << "its anchor has left as well";
@@ -132,22 +131,9 @@ TEST(DepthInitialiser, CandidatesOfOneImageShareAnAnchorAndThereAreOnlySoMany) {
   EXPECT_EQ(world.initialiser.size(), 3);
 }
 
-TEST(DepthInitialiser, WithInverseDepthItIsARayAtOnceOfWhichOnlyThePriorIsKnown) {
-  PassingBy world({.init = Initialization::kInverseDepth, .depth = {.nearest_m = 0.5, .farthest_m = 10.0}});
-  ASSERT_EQ(world.begin(1), Outcome::kAdded);
-  EXPECT_EQ(world.initialiser.size(), 0);
-  const PixelMap& map = world.map.map();
-  ASSERT_EQ(map.features().size(), 1U);
-  const int element = map.feature(0).element;
-  EXPECT_NEAR(map.state().landmark(element)[2], 1.05, 1e-12);
-  EXPECT_NEAR(std::sqrt(map.state().landmark_covariance(element)(2, 2)), 0.475, 1e-9);
-  const Eigen::Vector3d p_camera = world.in_camera(world.corner);
-  EXPECT_NEAR(map.state().landmark(element)[0], p_camera.x() / p_camera.z(), 1e-9);
-}
-
 TEST(DepthInitialiser, WhereTheMapHasNoRoomACandidateIsGivenUp) {
-  PassingBy world({.capacity = 1, .evict = Eviction::kNone});
-  world.load({{4.0, 0.0, 0.5}});
+  PassingBy world({.capacity = 1});
+  world.load({{4.0, 0.0, 0.5}});  // of this image, so that it stays
   ASSERT_EQ(world.begin(1), Outcome::kAdded);
   EXPECT_FALSE(world.initialiser.accept(corner_id(1)));
   ASSERT_EQ(world.map.removed().size(), 1U);

@@ -78,7 +78,7 @@ TEST_F(LandmarksInARow, MergingTellsNothingOfTheHeading) {
   const auto found = find(landmark);
   ASSERT_TRUE(found);
   ASSERT_TRUE(ekf::merge(map_, *found));
-  EXPECT_NEAR(map_.state().pose().covariance(2, 2), 0.04, 1e-12);
+  EXPECT_NEAR(map_.state().active().pose().covariance(2, 2), 0.04, 1e-12);
 }
 
 TEST(Duplicates, ALandmarkThatIsThereTwiceIsMerged) {

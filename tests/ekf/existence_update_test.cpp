@@ -25,7 +25,7 @@ class ThreeTentativeLandmarks : public testing::Test {
   [[nodiscard]] const Existence& existence(int landmark) const { return map_.table()[landmark].existence; }
 
   LandmarkSensor sensor_{.max_range_m = 10.0, .field_of_view_deg = 180.0, .detection_probability = 0.9};
-  AssociationModel model_{{.confirmed_log_odds = 6.0}, sensor_};
+  AssociationModel model_{{}, sensor_};
   SensorBiasStates errors_{SensorErrors{}};
   PointMap map_{{.capacity = 8}, errors_.pairs(), 1};
   PointObservation observation_{map_.state(), errors_, Pose2{}};

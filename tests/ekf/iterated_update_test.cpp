@@ -15,6 +15,9 @@ namespace {
 constexpr double kRange_m = 2.0;
 constexpr double kSigma_m = 0.01;
 
+const State& active(const State& state) { return state; }
+const State& active(const CompressedState& state) { return state.active(); }
+
 /// The distance of a robot, which only its x is unsure of, from a landmark abeam: z = sqrt(x^2 + 1).
 template <class FilterState>
 class AbeamOfALandmark {
@@ -47,10 +50,10 @@ class AbeamOfALandmark {
         state_, block,
         [&](std::size_t, const LinearizedObservation&) -> std::optional<LinearizedObservation> {
           ++linearised_;
-          return linearize(state_.proposed_pose().x_m, z_m);
+          return linearize(state_.proposal().pose().x_m, z_m);
         });
   }
-  [[nodiscard]] double x_m() const { return state_.pose().T_world_robot.x_m; }
+  [[nodiscard]] double x_m() const { return active(state_).pose().T_world_robot.x_m; }
   /// How often the distance was linearised anew.
   [[nodiscard]] int linearised() const { return linearised_; }
   [[nodiscard]] FilterState& state() { return state_; }
@@ -148,7 +151,7 @@ TEST(IteratedUpdate, AllocatesNothing) {
   const std::vector<LinearizedObservation> block{robot.linearize(robot.x_m(), kRange_m)};
   const test::AllocationCount count;
   EXPECT_TRUE(iterated.apply(robot.state(), block, [&](std::size_t, const LinearizedObservation&) {
-    return std::optional(robot.linearize(robot.state().proposed_pose().x_m, kRange_m));
+    return std::optional(robot.linearize(robot.state().proposal().pose().x_m, kRange_m));
   }));
   EXPECT_EQ(count.allocations(), 0);
 }

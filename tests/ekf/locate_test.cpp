@@ -12,7 +12,7 @@
 namespace waymark::ekf {
 namespace {
 
-constexpr double kSigma_m = 0.05;
+constexpr double kViewSigma_m = 0.05;
 
 /// Ranges to one point from several.
 struct Ranges {
@@ -23,12 +23,13 @@ struct Ranges {
       : places(std::move(from)) {
     RandomStream random(seed, StreamPurpose::kSimulation);
     for (const auto& place : places)
-      ranges_m.push_back((p_world - place).norm() + kSigma_m * random.normal());
+      ranges_m.push_back((p_world - place).norm() + kViewSigma_m * random.normal());
   }
 
   [[nodiscard]] std::optional<LinearizedViews> operator()(const Eigen::Vector2d& p_world) const {
     const auto m = std::ssize(places);
-    LinearizedViews views{Eigen::VectorXd(m), {m, 2}, kSigma_m * kSigma_m * Eigen::MatrixXd::Identity(m, m)};
+    LinearizedViews views{
+        Eigen::VectorXd(m), {m, 2}, kViewSigma_m * kViewSigma_m * Eigen::MatrixXd::Identity(m, m)};
     for (Eigen::Index i = 0; i < m; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Eigen::Vector2d d = p_world - places[k];
@@ -78,9 +79,9 @@ TEST(Descend, EndsWhereTheGradientVanishes) {
   const auto found = descend({0.0, 5.0}, ranges);
   ASSERT_TRUE(found);
   const auto views = ranges(found->p_world);
-  const Eigen::Vector2d gradient = views->H.transpose() * views->nu / (kSigma_m * kSigma_m);
+  const Eigen::Vector2d gradient = views->H.transpose() * views->nu / (kViewSigma_m * kViewSigma_m);
   EXPECT_LT(gradient.dot(found->covariance * gradient), 1e-4);
-  EXPECT_NEAR(found->nis, views->nu.squaredNorm() / (kSigma_m * kSigma_m), 1e-9);
+  EXPECT_NEAR(found->nis, views->nu.squaredNorm() / (kViewSigma_m * kViewSigma_m), 1e-9);
 }
 
 TEST(Descend, ReturnsNothingWhereADirectionStaysOpen) {

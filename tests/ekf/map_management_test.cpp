@@ -11,13 +11,13 @@ namespace {
 /// An observation of a landmark that is known to `landmark_sigma_m`, from a pose known to about `pose_scale`.
 PoseObservation make_observation(RandomStream& random, double pose_scale = 0.1,
                                  double landmark_sigma_m = 0.1) {
-  PoseObservation linearization;
-  linearization.P_pose = test::random_covariance<3>(random, pose_scale);
-  for (auto& entry : linearization.H_pose.reshaped()) entry = random.normal();
-  linearization.C_pose = linearization.P_pose * linearization.H_pose.transpose();
-  linearization.S = linearization.H_pose * linearization.C_pose +
-                    (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
-  return linearization;
+  PoseObservation observation;
+  observation.P_pose = test::random_covariance<3>(random, pose_scale);
+  for (auto& entry : observation.H_pose.reshaped()) entry = random.normal();
+  observation.C_pose = observation.P_pose * observation.H_pose.transpose();
+  observation.S = observation.H_pose * observation.C_pose +
+                  (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
+  return observation;
 }
 
 TEST(InformationGain, IsTheLogRatioOfTheDeterminantsOfThePoseCovariance) {
@@ -49,20 +49,9 @@ TEST(InformationGain, GrowsWithHowWellTheLandmarkIsKnown) {
             information_gain(make_observation(same, 0.1, 1.0)));
 }
 
-TEST(ArticleScore, IsTheTraceOfTheRobotBlock) {
-  RandomStream random(4, StreamPurpose::kWorld);
-  for (int i = 0; i < 20; ++i) {
-    const PoseObservation s = make_observation(random);
-    const Eigen::Matrix3d I_KH = Eigen::Matrix3d::Identity() - s.C_pose * s.S.inverse() * s.H_pose;
-    EXPECT_NEAR(article_score(s), I_KH.trace(), 1e-12);
-  }
-}
-
-class BothScores : public testing::TestWithParam<Eviction> {};
-
-TEST_P(BothScores, EvictTheLandmarkThatTellsLeast) {
+TEST(MapManagement, EvictsTheLandmarkThatTellsLeast) {
   RandomStream random(5, StreamPurpose::kWorld);
-  MapManagement management(GetParam(), 3);
+  MapManagement management(3);
   management.begin_scan();
   for (int i = 0; i < 3; ++i) management.added();
   for (int i = 0; i < 3; ++i) {
@@ -74,14 +63,12 @@ TEST_P(BothScores, EvictTheLandmarkThatTellsLeast) {
   EXPECT_EQ(management.least_useful(), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Evictions, BothScores, testing::Values(Eviction::kInformation, Eviction::kArticle));
-
 TEST(MapManagement, ALandmarkThatIsOftenOutsideItsGateCountsLess) {
   RandomStream random(6, StreamPurpose::kWorld);
-  const PoseObservation linearization = make_observation(random);
-  MapManagement management(Eviction::kInformation, 2);
+  const PoseObservation observation = make_observation(random);
+  MapManagement management(2);
   for (int i = 0; i < 2; ++i) management.added();
-  for (int i = 0; i < 2; ++i) management.matched(i, linearization);
+  for (int i = 0; i < 2; ++i) management.matched(i, observation);
   management.missed(1);
   management.begin_scan();
   EXPECT_EQ(management.least_useful(), 1);
@@ -89,7 +76,7 @@ TEST(MapManagement, ALandmarkThatIsOftenOutsideItsGateCountsLess) {
 
 TEST(MapManagement, FollowsTheIndicesOfTheState) {
   RandomStream random(7, StreamPurpose::kWorld);
-  MapManagement management(Eviction::kInformation, 3);
+  MapManagement management(3);
   for (int i = 0; i < 3; ++i) management.added();
   management.matched(1, make_observation(random));
   management.removed(0);  // landmark 2, never matched again, is now 0

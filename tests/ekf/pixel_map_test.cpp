@@ -221,15 +221,9 @@ void add_three_rays(PixelMap& map, RandomStream& random) {
   for (const int rays : {2, 1}) {
     map.state().predict(random_step(random));
     const int anchor = *map.add_anchor();
-    for (int k = 0; k < rays; ++k) {
-      ErrorTerms errors;
-      errors[0].pair = 0;
-      errors[0].J << 0.01 * random.normal(), 0.01 * random.normal(), 0.01 * random.normal(), 0.0, 0.0, 0.0;
-      map.add_ray(corner(number++), anchor, random_ray(random), test::random_covariance<3>(random, 1e-3),
-                  errors);
-    }
+    for (int k = 0; k < rays; ++k)
+      map.add_ray(corner(number++), anchor, random_ray(random), test::random_covariance<3>(random, 1e-3));
   }
-  map.state().propagate_bias(0, 0.5);
   map.state().predict(random_step(random));
 }
 

@@ -40,7 +40,7 @@ TEST(PixelNoise, AJitterTurnsTheCameraAboutItsXAndItsZAxis) {
                                   .toRotationMatrix();
     return camera.project(R * p_camera)->pixel;
   };
-  const ErrorTerms terms = noise.attitude_jitter(p_camera, camera.project(p_camera)->dpixel_dpoint);
+  const BiasTerms terms = noise.attitude_jitter(p_camera, camera.project(p_camera)->dpixel_dpoint);
   EXPECT_EQ(terms[0].pair, 0);
   EXPECT_FALSE(terms[1].takes_part());
   const Eigen::Vector2d none = Eigen::Vector2d::Zero();
@@ -52,7 +52,7 @@ TEST(PixelNoise, AnImageForgetsTheJitterOfTheLastOne) {
   ASSERT_TRUE(noise.has_jitter());
   State state(3, 1, Consistency::kInvariant, 1, 1);
   noise.begin_image(state);
-  EXPECT_EQ(state.errors_covariance(0, 0), Eigen::Matrix2d::Identity());
+  EXPECT_EQ(state.bias_covariance(0, 0), Eigen::Matrix2d::Identity());
 }
 
 TEST(PixelNoise, ACameraThatIsStillHasNoErrors) {

@@ -145,8 +145,8 @@ TEST(PixelPrediction, ExpectsAPointOnlyFromWhereItIsRecognised) {
 TEST(PixelPrediction, ARayThatLeadsBehindInfinityIsAsFarAwayAsPointsMayBe) {
   PixelWorld world({.depth = {.farthest_m = 20.0}});
   const int anchor = *world.map.map().add_anchor();
-  const int feature = world.map.add_ray(test::corner_id(1), anchor, {0.0, 0.0, -0.1},
-                                        1e-3 * Eigen::Matrix3d::Identity(), {}, 1);
+  const int feature =
+      world.map.add_ray(test::corner_id(1), anchor, {0.0, 0.0, -0.1}, 1e-3 * Eigen::Matrix3d::Identity(), 1);
   EXPECT_TRUE(
       matrix_near(world.prediction.place(world.map.map(), feature), Eigen::Vector3d(20.1, 0.0, 0.5), 1e-9));
 }

@@ -55,7 +55,7 @@ struct PixelWorld {
     const int feature =
         map.add_ray(corner_id(number), anchor,
                     {p_camera.x() / p_camera.z(), p_camera.y() / p_camera.z(), 1.0 / p_camera.z()},
-                    ekf::ray_covariance(1e-6 * Eigen::Matrix2d::Identity(), rho_sigma), {}, 1);
+                    ekf::ray_covariance(1e-6 * Eigen::Matrix2d::Identity(), rho_sigma), 1);
     map.map().release(anchor);
     return feature;
   }

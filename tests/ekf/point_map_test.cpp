@@ -7,7 +7,7 @@
 namespace waymark::ekf {
 namespace {
 
-LandmarkId marker(int number) { return {LandmarkId::Family::kMarker, number}; }
+LandmarkId numbered(int number) { return {LandmarkId::Family::kMarker, number}; }
 
 /// A robot that is unsure of its place, with markers 0, 1, 2 at (1, 0), (2, 0), (3, 0).
 class MapOfThree : public testing::Test {
@@ -19,7 +19,7 @@ class MapOfThree : public testing::Test {
     for (int k = 0; k < 3; ++k) append(k);
   }
   int append(int number) {
-    return map_.append({1.0 + number, 0.0}, 1e-4 * Eigen::Matrix2d::Identity(), {}, {.id = marker(number)});
+    return map_.append({1.0 + number, 0.0}, 1e-4 * Eigen::Matrix2d::Identity(), {}, {.id = numbered(number)});
   }
   [[nodiscard]] double x_m(int landmark) const { return map_.state().landmark(landmark).x(); }
 
@@ -36,7 +36,7 @@ TEST_F(MapOfThree, StateAndTableKeepTheSameIndices) {
   map_.remove(0);
   ASSERT_EQ(map_.table().size(), 2);
   ASSERT_EQ(map_.state().landmarks(), 2);
-  EXPECT_EQ(map_.table().find(marker(2)), 0);
+  EXPECT_EQ(map_.table().find(numbered(2)), 0);
   EXPECT_DOUBLE_EQ(x_m(0), 3.0);
   EXPECT_EQ(map_.place(0), Eigen::Vector2d(3.0, 0.0));
   EXPECT_EQ(map_.table().removed().size(), 1U);
@@ -65,7 +65,7 @@ TEST_F(MapOfThree, PointsAreNotInTheMap) {
   const MapState saved = map_.save();
   ASSERT_EQ(snapshot.landmarks.size(), 4U);
   ASSERT_EQ(saved.ids.size(), 4U);
-  EXPECT_EQ(saved.ids[3], marker(3));
+  EXPECT_EQ(saved.ids[3], numbered(3));
   EXPECT_DOUBLE_EQ(saved.landmarks[6], 4.0);
   EXPECT_EQ(saved.covariance.rows(), 3 + 2 * 4);
 }
@@ -91,7 +91,7 @@ TEST_F(MapOfThree, IsLoadedAsItWasSaved) {
   ASSERT_TRUE(again.load(saved));
   EXPECT_EQ(again.save().landmarks, saved.landmarks);
   EXPECT_EQ(again.save().covariance, saved.covariance);
-  EXPECT_EQ(again.table().find(marker(2)), 2);
+  EXPECT_EQ(again.table().find(numbered(2)), 2);
   EXPECT_FALSE(again.load(saved)) << "only before the first";
 }
 

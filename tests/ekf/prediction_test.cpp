@@ -37,7 +37,7 @@ TEST(Prediction, SpreadsBiasesAsPlainMatricesDo) {
   State state(2, 4, Consistency::kStandard, 1, 2);
   for (int pair = 0; pair < 2; ++pair) state.propagate_bias(pair, 0.0);
   const auto random_terms = [&random] {
-    ErrorTerms terms;
+    BiasTerms terms;
     for (int pair = 0; pair < 2; ++pair) {
       terms[static_cast<std::size_t>(pair)].pair = pair;
       for (auto& entry : terms[static_cast<std::size_t>(pair)].J.reshaped()) entry = 0.1 * random.normal();
@@ -48,7 +48,7 @@ TEST(Prediction, SpreadsBiasesAsPlainMatricesDo) {
     const Eigen::MatrixXd before = test::whole_covariance(state);
     const Pose2 from = state.pose().T_world_robot;
     const Motion motion{{0.2, 0.01, 0.1 * random.normal()}, 1e-4 * Eigen::Matrix3d::Identity()};
-    const ErrorTerms terms = random_terms();
+    const BiasTerms terms = random_terms();
     state.predict(motion, terms);
     const auto n = before.rows();
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);

@@ -1,5 +1,7 @@
 #include "waymark/ekf/proposal.hpp"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "support/matrix_near.hpp"
@@ -32,7 +34,7 @@ class ProposalTest : public testing::TestWithParam<Consistency> {
 
 TEST_P(ProposalTest, IsWhereTheUpdateLeads) {
   const Proposal proposal = state_.proposal();
-  ErrorTerms terms;
+  BiasTerms terms;
   terms[0].pair = 0;
   terms[0].J.topRows<2>().setIdentity();
   const Pose2 pose = proposal.pose();
@@ -42,7 +44,7 @@ TEST_P(ProposalTest, IsWhereTheUpdateLeads) {
   state_.accept();
   EXPECT_EQ(pose, state_.pose().T_world_robot);
   EXPECT_TRUE(matrix_near(landmark, state_.landmark(1), 1e-14));
-  EXPECT_TRUE(matrix_near(errors, state_.errors(0), 1e-14));
+  EXPECT_TRUE(matrix_near(errors, state_.biases(0), 1e-14));
 }
 
 TEST_P(ProposalTest, AddsToAnInnovationWhatItExplains) {
@@ -51,6 +53,25 @@ TEST_P(ProposalTest, AddsToAnInnovationWhatItExplains) {
   EXPECT_TRUE(matrix_near(back.nu, Eigen::Vector2d(there.nu + state_.proposal().explained(back)), 1e-14));
   EXPECT_EQ(back.H_landmark, there.H_landmark);
   EXPECT_EQ(back.H_pose == there.H_pose, GetParam() != Consistency::kInvariant);
+}
+
+TEST_P(ProposalTest, OfACompressedMapGoesByTheIndicesOfTheMap) {
+  Slots map(2, 2);
+  for (const int slot : {0, 1}) map.append(slot);
+  for (const int slot : {1, 0}) map.enter(slot);  // landmark 0 of the map is landmark 1 of the state
+  const Proposal local = state_.proposal();
+  const Proposal proposal = local.with_indices_of(map);
+  EXPECT_EQ(proposal.pose(), local.pose());
+  EXPECT_EQ(proposal.landmark(0), local.landmark(1));
+  LinearizedObservation there = random_observation(random_, 1, 2, 1);
+  there.anchor = 0;
+  const LinearizedObservation expected = local.relinearized_to_prior(there);
+  std::swap(there.landmark, there.anchor);
+  const LinearizedObservation back = proposal.relinearized_to_prior(there);
+  EXPECT_EQ(back.landmark, 0);
+  EXPECT_EQ(back.anchor, 1);
+  EXPECT_EQ(back.nu, expected.nu);
+  EXPECT_EQ(back.H_pose, expected.H_pose);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModes, ProposalTest,

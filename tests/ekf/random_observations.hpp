@@ -16,9 +16,9 @@ inline Motion random_motion(RandomStream& random) {
   return {increment, random_covariance<3>(random, 1e-4)};
 }
 
-inline ekf::ErrorTerms random_errors(RandomStream& random, int pairs) {
-  ekf::ErrorTerms errors;
-  for (int k = 0; k < std::min(pairs, ekf::kErrorTerms); ++k) {
+inline ekf::BiasTerms random_errors(RandomStream& random, int pairs) {
+  ekf::BiasTerms errors;
+  for (int k = 0; k < std::min(pairs, ekf::kBiasTerms); ++k) {
     if (random.uniform() < 0.3) continue;
     auto& error = errors[static_cast<std::size_t>(k)];
     error.pair = (k + static_cast<int>(random.uniform() * (pairs - 1))) % pairs;
@@ -30,7 +30,7 @@ inline ekf::ErrorTerms random_errors(RandomStream& random, int pairs) {
 
 /// An observation as a filter would linearise it, with Jacobians of no particular sensor.
 inline ekf::LinearizedObservation random_observation(RandomStream& random, int landmark, int dimension,
-                                                     int error_pairs = 0) {
+                                                     int bias_pairs = 0) {
   ekf::LinearizedObservation s;
   s.landmark = landmark;
   s.rows = random.uniform() < 0.3 ? 1 : 2;
@@ -40,7 +40,7 @@ inline ekf::LinearizedObservation random_observation(RandomStream& random, int l
   for (auto& entry : s.H_anchor.reshaped()) entry = random.normal();
   if (dimension == 2) s.H_landmark.col(2).setZero();
   s.R = random_covariance<2>(random, 0.05);
-  s.errors = random_errors(random, error_pairs);
+  s.errors = random_errors(random, bias_pairs);
   return s;
 }
 
@@ -67,10 +67,10 @@ inline Eigen::MatrixXd whole_covariance(const ekf::Belief& belief) {
 }
 
 /// J of what something linear depends on, as a dense matrix of n columns.
-inline Eigen::MatrixXd dense(const ekf::Touched& touched, std::size_t n) {
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(touched.J.rows(), static_cast<Eigen::Index>(n));
-  for (std::size_t k = 0; k < touched.size(); ++k)
-    J.col(static_cast<Eigen::Index>(touched.rows[k])) += touched.J.col(static_cast<Eigen::Index>(k));
+inline Eigen::MatrixXd dense(const ekf::SparseJacobian& jacobian, std::size_t n) {
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(jacobian.J.rows(), static_cast<Eigen::Index>(n));
+  for (std::size_t k = 0; k < jacobian.size(); ++k)
+    J.col(static_cast<Eigen::Index>(jacobian.rows[k])) += jacobian.J.col(static_cast<Eigen::Index>(k));
   return J;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using test::matrix_near;
 
-/// Four landmarks, the last of which is left out of the submap while the others are sighted.
+/// Four landmarks, the last of which is left out of the submap while the others are observed.
 class RecallTest : public testing::TestWithParam<int> {
  protected:
   static constexpr int kLandmarks = 4;

@@ -59,7 +59,8 @@ TEST(Recency, CountsWhatIsSeenFromOnePlaceOnce) {
       recency.mark_seen(member);
     }
   }
-  recency.count_another();
+  recency.count(Recency::kNoMember);
+  recency.mark_seen(Recency::kNoMember);
   EXPECT_EQ(recency.in_view(), 3);
   recency.begin_step();
   recency.begin_update();

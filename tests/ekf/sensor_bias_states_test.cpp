@@ -36,14 +36,14 @@ struct Fixture {
   void observe(int number, const Eigen::Vector2d& difference) {
     const ObservationBias error = errors.of(marker(number), 1.0);
     LinearizedObservation linearization;
-    linearization.nu = difference - state.expected(error.terms);
+    linearization.nu = difference - state.active().expected(error.terms);
     linearization.errors = error.terms;
     linearization.R = 1e-12 * Eigen::Matrix2d::Identity() + error.unmodelled;
     ASSERT_TRUE(state.update({&linearization, 1}));
   }
 
   [[nodiscard]] Eigen::Vector2d expected(int number) const {
-    return state.expected(errors.of(marker(number), 1.0).terms);
+    return state.active().expected(errors.of(marker(number), 1.0).terms);
   }
 
   SensorBiasStates errors;

@@ -17,7 +17,7 @@ namespace {
 using test::matrix_near;
 
 // The robot, a pair of errors, and two landmarks of which the first is relative.
-constexpr StateLayout kLayout{3, error_offset(1), 2};
+constexpr StateLayout kLayout{3, bias_offset(1), 2};
 constexpr int kLayoutSize = 11;
 const std::vector<char> kRelative{1, 0};
 

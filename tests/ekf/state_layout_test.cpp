@@ -12,7 +12,7 @@ namespace waymark::ekf {
 namespace {
 
 TEST(StateLayout, HasRobotThenErrorsThenLandmarks) {
-  const StateLayout layout{2, error_offset(2), 3};
+  const StateLayout layout{2, bias_offset(2), 3};
   EXPECT_EQ(layout.offset(0), 7);
   EXPECT_EQ(layout.offset(2), 11);
   EXPECT_EQ(layout.size(), 13);
@@ -22,12 +22,12 @@ TEST(StateLayout, HasRobotThenErrorsThenLandmarks) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
   EXPECT_EQ(StateLayout::pose(values.data()), (Pose2{0.0, 1.0, 2.0}));
   EXPECT_EQ(layout.landmark(values.data(), 1), Eigen::Vector3d(9.0, 10.0, 0.0));
-  EXPECT_EQ(error_pair(values.data(), 1), Eigen::Vector2d(5.0, 6.0));
+  EXPECT_EQ(bias_pair(values.data(), 1), Eigen::Vector2d(5.0, 6.0));
 }
 
 TEST(StateLayout, AnObservationTouchesTheRobotItsErrorsAndItsPoints) {
   RandomStream random(1, StreamPurpose::kWorld);
-  const StateLayout layout{3, error_offset(2), 4};
+  const StateLayout layout{3, bias_offset(2), 4};
   LinearizedObservation s = test::random_observation(random, 1, 3);
   s.anchor = 3;
   s.errors = {};
@@ -38,15 +38,15 @@ TEST(StateLayout, AnObservationTouchesTheRobotItsErrorsAndItsPoints) {
   expected.middleCols<2>(5) = s.errors[2].J.topRows<2>();
   expected.middleCols<3>(10) = s.H_landmark;
   expected.middleCols<3>(16) = s.H_anchor;
-  EXPECT_EQ(test::dense(layout.touched(s, 2), layout.size()), expected);
+  EXPECT_EQ(test::dense(layout.jacobian(s, 2), layout.size()), expected);
 }
 
 TEST(StateLayout, ErrorsAddUp) {
-  ErrorTerms terms;
+  BiasTerms terms;
   terms[0] = {1, Eigen::Matrix<double, 3, 2>::Constant(2.0)};
   terms[2] = {0, Eigen::Matrix<double, 3, 2>::Constant(10.0)};
   const std::array values{0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0};
-  EXPECT_EQ(error_part(values.data(), terms), Eigen::Vector2d(44.0, 44.0));
+  EXPECT_EQ(bias_part(values.data(), terms), Eigen::Vector2d(44.0, 44.0));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ using test::small_map;
 struct StateCase {
   int dimension;
   Consistency consistency;
-  int error_pairs = 0;
+  int bias_pairs = 0;
 };
 
 /// The fast state and the plain one in a random world of their own, given the same random operations.
@@ -35,17 +35,17 @@ class Twins {
  public:
   Twins(const StateCase& kind, int capacity, std::uint64_t seed)
       : kind_(kind),
-        state_(kind.dimension, capacity, kind.consistency, 1, kind.error_pairs),
-        dense_(kind.dimension, kind.consistency, kind.error_pairs),
+        state_(kind.dimension, capacity, kind.consistency, 1, kind.bias_pairs),
+        dense_(kind.dimension, kind.consistency, kind.bias_pairs),
         random_(seed, StreamPurpose::kWorld) {
     predict();  // from here on the covariance is positive definite
-    for (int pair = 0; pair < kind.error_pairs; ++pair) propagate(pair, 0.0);
+    for (int pair = 0; pair < kind.bias_pairs; ++pair) propagate(pair, 0.0);
   }
 
   void step() {
     const double what = random_.uniform();
-    if (kind_.error_pairs > 0 && random_.uniform() < 0.3)
-      propagate(static_cast<int>(random_.uniform() * kind_.error_pairs), random_.uniform());
+    if (kind_.bias_pairs > 0 && random_.uniform() < 0.3)
+      propagate(static_cast<int>(random_.uniform() * kind_.bias_pairs), random_.uniform());
     if (what < 0.45)
       predict();
     else if (what < 0.6 && state_.landmarks() < state_.capacity())
@@ -67,8 +67,8 @@ class Twins {
     const Eigen::MatrixXd expected = dense_.covariance();
     const Eigen::MatrixXd P = state_.covariance();
     EXPECT_TRUE(matrix_near(P, expected, tolerance * std::max(1.0, expected.cwiseAbs().maxCoeff())));
-    for (int pair = 0; pair < kind_.error_pairs; ++pair)
-      EXPECT_TRUE(matrix_near(state_.errors(pair), dense_.errors(pair), tolerance));
+    for (int pair = 0; pair < kind_.bias_pairs; ++pair)
+      EXPECT_TRUE(matrix_near(state_.biases(pair), dense_.biases(pair), tolerance));
     EXPECT_EQ(P, P.transpose());
     EXPECT_EQ(P.llt().info(), Eigen::Success);
   }
@@ -113,9 +113,8 @@ class Twins {
   void add_relative() {
     const Eigen::Vector3d values(random_.normal(), random_.normal(), random_.normal());
     const Eigen::Matrix3d noise = test::random_covariance<3>(random_, 0.01);
-    const ErrorTerms errors = random_errors(random_, kind_.error_pairs);
-    state_.add_relative(values, noise, errors);
-    dense_.add_relative(values, noise, errors);
+    state_.add_relative(values, noise);
+    dense_.add_relative(values, noise);
   }
 
   void make_absolute() {
@@ -135,7 +134,7 @@ class Twins {
     Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
     for (auto& entry : G.reshaped()) entry += 0.3 * random_.normal();
     const Eigen::Matrix3d noise = test::random_covariance<3>(random_, 0.01);
-    const ErrorTerms errors = random_errors(random_, kind_.error_pairs);
+    const BiasTerms errors = random_errors(random_, kind_.bias_pairs);
     state_.add(position, G, noise, errors);
     dense_.add(position, G, noise, errors);
   }
@@ -147,7 +146,7 @@ class Twins {
   }
 
   [[nodiscard]] LinearizedObservation any_observation() {
-    LinearizedObservation s = random_observation(random_, any_landmark(), kind_.dimension, kind_.error_pairs);
+    LinearizedObservation s = random_observation(random_, any_landmark(), kind_.dimension, kind_.bias_pairs);
     if (anchors() && random_.uniform() < 0.4) s.anchor = another_than(s.landmark);
     return s;
   }
@@ -158,8 +157,8 @@ class Twins {
       linearizations.push_back(any_observation());
     expect_equal_covariance_of(linearizations);
     ASSERT_TRUE(state_.propose(linearizations));
-    const Pose2 proposed = state_.proposed_pose();
-    const Eigen::Vector3d proposed_landmark = state_.proposed_landmark(linearizations[0].landmark);
+    const Pose2 proposed = state_.proposal().pose();
+    const Eigen::Vector3d proposed_landmark = state_.proposal().landmark(linearizations[0].landmark);
     state_.accept();
     EXPECT_EQ(proposed, state_.pose().T_world_robot);
     EXPECT_TRUE(matrix_near(proposed_landmark, state_.landmark(linearizations[0].landmark), 1e-14));

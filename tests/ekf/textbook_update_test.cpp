@@ -126,12 +126,12 @@ TEST(TextbookUpdate, OfAStateIsThatOfTheFastOne) {
     const auto seen = linearizations(random);
     ASSERT_TRUE(fast.propose(seen));
     ASSERT_TRUE(slow.propose(seen));
-    EXPECT_TRUE(matrix_near(slow.explained(seen[0]), fast.explained(seen[0]), 1e-10));
+    EXPECT_TRUE(matrix_near(slow.proposal().explained(seen[0]), fast.proposal().explained(seen[0]), 1e-10));
     fast.accept();
     slow.accept();
     EXPECT_TRUE(matrix_near(slow.mean(), fast.mean(), 1e-10));
     EXPECT_TRUE(matrix_near(slow.covariance(), fast.covariance(), 1e-10));
-    EXPECT_TRUE(matrix_near(slow.errors(0), fast.errors(0), 1e-10));
+    EXPECT_TRUE(matrix_near(slow.biases(0), fast.biases(0), 1e-10));
     for (State* state : {&fast, &slow}) state->predict({{0.1, 0.0, 0.0}, 1e-4 * Eigen::Matrix3d::Identity()});
   }
 }

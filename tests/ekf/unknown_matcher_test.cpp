@@ -26,9 +26,7 @@ EkfSlam make_filter(const CircleWorld& world, EkfOptions options = {.capacity = 
 template <bool jointly>
 struct Ekf {
   static EkfSlam make(const CircleWorld& world) { return make_filter(world, {.capacity = 40}, jointly); }
-  static EkfSlam make_small(const CircleWorld& world) {
-    return make_filter(world, {.capacity = 5, .evict = ekf::Eviction::kNone}, jointly);
-  }
+  static EkfSlam make_small(const CircleWorld& world) { return make_filter(world, {.capacity = 5}, jointly); }
 };
 
 using EitherWay = testing::Types<Ekf<true>, Ekf<false>>;
@@ -48,15 +46,15 @@ TEST(UnknownMatcher, WithoutAssociationNothingOfUnknownIdentityIsUsed) {
 }
 
 TEST(UnknownMatcher, WithoutClutterItIsTheFilterThatKnows) {
-  CircleWorld told(2);
-  CircleWorld unobservable(2);
-  EkfSlam knows({.capacity = 40}, told.sensor());
-  EkfSlam guesses = make_filter(unobservable);
+  CircleWorld identified(2);
+  CircleWorld unidentified(2);
+  EkfSlam knows({.capacity = 40}, identified.sensor());
+  EkfSlam guesses = make_filter(unidentified);
   for (int i = 0; i < 100; ++i) {
-    knows.predict(told.move());
-    knows.correct(told.look());
-    guesses.predict(unobservable.move());
-    guesses.correct(without_identity(unobservable.look()));
+    knows.predict(identified.move());
+    knows.correct(identified.look());
+    guesses.predict(unidentified.move());
+    guesses.correct(without_identity(unidentified.look()));
   }
   const Eigen::Vector3d apart = difference(knows.pose().T_world_robot, guesses.pose().T_world_robot);
   EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-9);

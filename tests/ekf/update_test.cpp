@@ -20,7 +20,7 @@ using test::matrix_near;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Panel = Eigen::Map<const RowMajor, 0, Eigen::OuterStride<>>;
 
-/// Four 2-D landmarks and a pair of errors, sighted three times.
+/// Four 2-D landmarks and a pair of biases, observed three times.
 class UpdateTest : public testing::Test {
  protected:
   static constexpr int kSize = 13;
@@ -39,7 +39,7 @@ class UpdateTest : public testing::Test {
     nu_.resize(rows_);
     int row = 0;
     for (const LinearizedObservation& s : linearizations_) {
-      H_.middleRows(row, s.rows) = test::dense(layout_.touched(s, s.rows), kSize);
+      H_.middleRows(row, s.rows) = test::dense(layout_.jacobian(s, s.rows), kSize);
       R_.block(row, row, s.rows, s.rows) = s.R.topLeftCorner(s.rows, s.rows);
       nu_.segment(row, s.rows) = s.nu.head(s.rows);
       row += s.rows;
@@ -56,7 +56,7 @@ class UpdateTest : public testing::Test {
   [[nodiscard]] Eigen::VectorXd dx() const { return Eigen::Map<const Eigen::VectorXd>(update_.dx(), kSize); }
 
   RandomStream random_{1, StreamPurpose::kWorld};
-  StateLayout layout_{2, error_offset(1), 4};
+  StateLayout layout_{2, bias_offset(1), 4};
   Eigen::MatrixXd before_;
   Covariance P_;
   Update update_;

@@ -45,13 +45,13 @@ TEST(Belief, EveryStepDrawsOtherNumbers) {
 TEST(Belief, AlsoTheRecordsOfTheLastLandmarkTakeThePlaceOfARemovedOne) {
   Belief belief(few(), {}, 1);
   for (int k = 0; k < 3; ++k) test::add_point(belief, {1.0 * k, 0.0});
-  belief.records[2].existence = 0.7;
+  belief.records[2].existence_probability = 0.7;
   belief.remove(0);
   ASSERT_EQ(belief.store.size(), 2);
   ASSERT_EQ(belief.landmarks.size(), 2);
   ASSERT_EQ(belief.records.size(), 2U);
   EXPECT_EQ(belief.landmarks[0].id, test::marker(2));
-  EXPECT_EQ(belief.records[0].existence, 0.7);
+  EXPECT_EQ(belief.records[0].existence_probability, 0.7);
   EXPECT_NEAR(belief.store.at(0, 5).mean.x(), 2.0, 1e-6);
 }
 
@@ -69,8 +69,8 @@ TEST(Belief, DoubtsOnlyWhatWasMetWithoutIdentity) {
   Belief belief(few(), {}, 1);
   test::add_point(belief, {3.0, 0.0});
   test::add_point(belief, {4.0, 0.0}, Identity::kUnknown);
-  EXPECT_EQ(belief.records[0].existence, 1.0);
-  EXPECT_EQ(belief.records[1].existence, 0.5);
+  EXPECT_EQ(belief.records[0].existence_probability, 1.0);
+  EXPECT_EQ(belief.records[1].existence_probability, 0.5);
   EXPECT_EQ(belief.store.existence(0), nullptr);
   EXPECT_NE(belief.store.existence(1), nullptr);
 }

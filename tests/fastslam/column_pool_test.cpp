@@ -1,6 +1,5 @@
 #include "waymark/fastslam/column_pool.hpp"
 
-#include <cstdint>
 #include <set>
 
 #include <gtest/gtest.h>

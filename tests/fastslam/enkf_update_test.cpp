@@ -54,8 +54,7 @@ class EnkfUpdateTest : public testing::Test {
     const kernels::LandmarkObservation observation{
         {ObservationKind::kRange, range_m}, {}, store_.view(0, origin_m_)};
     const double spread = robot_x().variance * kEnsemble / (kEnsemble - 1.0);
-    enkf_.take_in(observation, false, spread + noise, information_weight, {}, origin_m_, particles_,
-                  calibration_, store_);
+    enkf_.assimilate({observation, false, spread + noise, information_weight}, belief_);
   }
 
   /// Over the particles that weigh anything.
@@ -79,12 +78,11 @@ class EnkfUpdateTest : public testing::Test {
     return moments([this, k](int i) { return store_.at(k, i).mean.x() - kWorld; });
   }
 
-  Eigen::Vector2d origin_m_{kWorld, 0.0};
-  ParticleBlocks blocks_{kEnsemble};
-  Particles particles_{kEnsemble, {}};
-  LandmarkStore store_{blocks_};
-  RangeCalibration calibration_{{}, 1, blocks_};
-  EnkfUpdate enkf_{blocks_};
+  Belief belief_{{.particles = kEnsemble, .initial = {.T_world_robot = {kWorld, 0.0, 0.0}}}, {}, 1};
+  Eigen::Vector2d origin_m_ = belief_.origin_m();
+  Particles& particles_ = belief_.particles;
+  LandmarkStore& store_ = belief_.store;
+  EnkfUpdate enkf_{belief_.blocks};
 };
 
 TEST_F(EnkfUpdateTest, MovesMeansAsTheKalmanFilterDoes) {

@@ -115,7 +115,7 @@ double mean_effective_after_drive(bool watching, int steps, double information_d
   return mean;
 }
 
-/// Weights fall with the way, not with the number of frames: 20 steps are 2 m.
+/// Weights fall with the distance travelled, not with the number of frames: 20 steps are 2 m.
 TEST(FastSlam, ALandmarkUnderWatchWeighsParticlesByDistanceTravelledNotByEachFrame) {
   EXPECT_GT(mean_effective_after_drive(true, 20, 1.0), 5.0 * mean_effective_after_drive(true, 20, 0.0));
 }
@@ -456,40 +456,6 @@ TEST_P(FastSlamSeeing, ASteadyStateStepAllocatesNothing) {
   }
   EXPECT_EQ(count.allocations(), 0);
   EXPECT_GT(filter.resamplings(), resamplings);
-}
-
-/// Mean error of the landmarks over a few runs, and of the robot at their ends.
-struct Errors {
-  double landmark_m = 0.0;
-  double robot_m = 0.0;
-};
-
-Errors errors_starting(LandmarkStart init, Seen seen) {
-  constexpr int kRuns = 5;
-  Errors errors;
-  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    CircleWorld world(seed);
-    FastSlamOptions options = with_particles(100);
-    options.init = init;
-    FastSlam filter(seeded(options, seed), world.sensor());
-    drive_named(filter, world, 200, seen);
-    errors.robot_m += position_error_m(filter, world) / kRuns;
-    for (const auto& landmark : filter.snapshot().landmarks) {
-      const auto& truth = world.landmarks()[static_cast<std::size_t>(landmark.id.number)];
-      errors.landmark_m += (landmark.position_m.head<2>() - truth).norm() / (8 * kRuns);
-    }
-  }
-  return errors;
-}
-
-TEST(FastSlam, LandmarksThatBeginAsGuessesAreOfUseButLessThanAnchoredOnes) {
-  for (const Seen seen : {Seen::kRange, Seen::kBearing}) {
-    const Errors guessed = errors_starting(LandmarkStart::kGuess, seen);
-    const Errors anchored = errors_starting(LandmarkStart::kAnchored, seen);
-    EXPECT_TRUE(std::isfinite(guessed.landmark_m));
-    EXPECT_LT(anchored.landmark_m, guessed.landmark_m);
-    EXPECT_LT(anchored.robot_m, guessed.robot_m);
-  }
 }
 
 /// Errors of landmarks that a sensor with a field of view sees by their range alone, if it is told how often

@@ -102,7 +102,7 @@ TEST(FirstForm, WhereNothingIsKnownARingCoversTheFieldOfViewEvenly) {
     EXPECT_NEAR(mixture.mean, 0.0, 1e-4);
     for (double phi = -0.6; phi < 0.6; phi += 0.01)
       EXPECT_NEAR(density(first, phi) / density(first, 0.0), 1.0, 0.02) << phi;
-    // b sigma_phi^2 / 2 < 0.3 sigma_r for a way as long as the range, but for the blur of a bearing.
+    // b sigma_phi^2 / 2 < 0.3 sigma_r for a distance as long as the range, but for the blur of a bearing.
     const double blur = to_radians(kSensor.bearing_sigma_deg) * to_radians(kSensor.bearing_sigma_deg);
     for (std::size_t k = 0; k < first.modes; ++k)
       EXPECT_LT(0.5 * 4.0 * (static_cast<double>(first.guess.modes[k].variance) - 1.1 * blur), 0.3 * 0.05);
@@ -286,37 +286,6 @@ TEST_F(LandmarkFormsTest, ARayBecomesAPointWhenItsDepthIsLinearFromTheSensor) {
   ASSERT_EQ(store_.form(landmark_), LandmarkForm::kPoint);
   EXPECT_TRUE(matrix_near(store_.at(landmark_, 3).mean, Eigen::Vector2d(10.0, 6.0), 1e-5));
   EXPECT_NEAR(store_.at(landmark_, 3).covariance(0, 0), 0.01, 1e-5);
-}
-
-/// The report's way: on the arc within the field of view, or on the ray within the range.
-TEST_F(LandmarkFormsTest, GuessesLieWhereTheObservationAllows) {
-  landmark_ = store_.add(LandmarkForm::kPoint, {5.0, 5.0});
-  LandmarkSensor sensor = kSensor;
-  sensor.yaw_deg = 30.0;
-  for (const ObservationKind kind : {ObservationKind::kRange, ObservationKind::kBearing}) {
-    const double bearing = kind == ObservationKind::kBearing ? 0.2 : 0.0;
-    LandmarkMeasurement seen{kind, 4.0F};
-    seen.cos_bearing = static_cast<float>(std::cos(bearing + to_radians(30.0)));
-    seen.sin_bearing = static_cast<float>(std::sin(bearing + to_radians(30.0)));
-    place_by_guess(store_, landmark_, seen, sensor, particles_, {1, StreamPurpose::kInitialisation, 1},
-                   blocks_);
-    double low = 1e9;
-    double high = -1e9;
-    for (int i = 0; i < kCount; ++i) {
-      const Eigen::Vector2d d = store_.at(landmark_, i).mean - Eigen::Vector2d(5.0, 5.0);
-      const double direction = std::atan2(d.y(), d.x()) - to_radians(30.0);
-      const double drawn = kind == ObservationKind::kRange ? direction : d.norm();
-      low = std::min(low, drawn);
-      high = std::max(high, drawn);
-      EXPECT_NEAR(kind == ObservationKind::kRange ? d.norm() : direction,
-                  kind == ObservationKind::kRange ? 4.0 : 0.2, 1e-5);
-    }
-    const double from = kind == ObservationKind::kRange ? -0.25 * kPi : 0.5;
-    const double to = kind == ObservationKind::kRange ? 0.25 * kPi : 10.0;
-    EXPECT_GE(low, from - 1e-5);
-    EXPECT_LE(high, to + 1e-5);
-    EXPECT_GT(high - low, 0.95 * (to - from));
-  }
 }
 
 }  // namespace

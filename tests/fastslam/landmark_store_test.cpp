@@ -56,7 +56,7 @@ class TwinMaps {
 
   void update() {
     const int landmark = any_landmark();
-    store_.touch(landmark);
+    store_.gather(landmark);
     if (store_.modes(landmark) > 1 && random_.uniform() < 0.2) {
       store_.drop_mode(landmark, 1);
     } else if (store_.form(landmark) == LandmarkForm::kRay && random_.uniform() < 0.2) {
@@ -99,7 +99,7 @@ class TwinMaps {
       resample();
   }
 
-  /// Looks at a copy of the store's landmarks: touching is part of the life of the store itself.
+  /// Looks at a copy of the store's landmarks: gathering is part of the life of the store itself.
   [[nodiscard]] bool equal() const {
     for (int k = 0; k < store_.size(); ++k)
       for (std::size_t i = 0; i < alive_; ++i)
@@ -109,7 +109,7 @@ class TwinMaps {
 
   [[nodiscard]] bool all_columns_equal() {
     for (int k = 0; k < store_.size(); ++k) {
-      store_.touch(k);
+      store_.gather(k);
       const auto columns = columns_of(store_.view(k, {0.0, 0.0}), store_.existence(k));
       for (std::size_t i = 0; i < alive_; ++i)
         for (std::size_t c = 0; c < columns.size(); ++c)
@@ -220,7 +220,7 @@ TEST(LandmarkStore, AllocatesOnlyWhenALandmarkIsAdded) {
   const test::AllocationCount count;
   for (int step = 0; step < 200; ++step) {
     store.resample(ancestors);
-    store.touch(step % 40);
+    store.gather(step % 40);
     if (step == 100) store.become_point(1);
   }
   EXPECT_EQ(count.allocations(), 0);
@@ -255,7 +255,7 @@ TEST(LandmarkStore, LandmarksThatNobodyLooksAtAreSeldomMoved) {
     for (int k = 0; k < kLandmarks; ++k) before.push_back(column(k));
     store.resample(ancestors);
     for (int k = 0; k < kLandmarks; ++k) moved += column(k) != before[static_cast<std::size_t>(k)] ? 1 : 0;
-    store.touch(step);
+    store.gather(step);
   }
   // Folding the oldest generation instead would move 2000 of them every 16 steps: 250 000.
   EXPECT_LT(moved, kLandmarks * 12);

@@ -63,10 +63,37 @@ TEST_F(MapManagementTest, LandmarksWithoutIdentityAreNamedAndTentative) {
   EXPECT_EQ(belief_.store.existence(0)[2], 0.0F);
 }
 
+TEST_F(MapManagementTest, ChoicesOfParticlesLeaveRoomForWhatIsNewToAll) {
+  for (const Eigen::Vector2d& p_world :
+       std::vector<Eigen::Vector2d>{{4.0, 0.0}, {0.0, 5.0}, {0.0, -5.0}, {9.0, 0.0}})
+    test::add_point(belief_, p_world);
+  const SensorModel sensor(kScanner, 1.0);
+  const InnovationGate gate({}, sensor);
+  ParticleMatcher matcher(AssociationModel({}, kScanner), sensor, belief_.blocks);
+  ScanUpdate update({}, belief_.blocks);
+  next_scan();
+  const std::vector<Observation> observations{test::range_bearing(4.0, 0.0), test::range_bearing(4.02, 0.0),
+                                              test::range_bearing(8.0, -1.0)};
+  scan_.begin(observations);
+  for (Innovation& innovation : scan_.innovations) innovation.outcome = Outcome::kUnidentified;
+  matcher.match(scan_, gate, map_.room(belief_), belief_);
+  ASSERT_TRUE(scan_.is(2, Outcome::kAdded));
+  ASSERT_TRUE(matcher.match_ambiguous(scan_, gate, 0, belief_).empty());
+  update.begin();
+  matcher.split(scan_, update, belief_);
+  ASSERT_EQ(scan_.count(Outcome::kAdded), 2);
+
+  map_.initialise_choices(scan_, matcher, belief_);
+  map_.initialise(2, scan_, history_, belief_);
+  EXPECT_EQ(belief_.store.size(), 5);
+  EXPECT_EQ(map_.room(belief_), 0);
+  EXPECT_EQ(scan_.count(Outcome::kMapFull), 1);
+}
+
 TEST_F(MapManagementTest, HypothesesThatWereExpectedAndNotSeenBecomeLessLikely) {
   initialise(test::range_alone(4.0, test::marker(1)));
   const auto weight_ahead = [this] {
-    belief_.store.touch(0);
+    belief_.store.gather(0);
     const auto view = belief_.view(0);
     return view.modes[view.mode_count / 2].log_weight[0];
   };
@@ -85,7 +112,7 @@ TEST_F(MapManagementTest, ForgetsWhatNoParticleBelievesInAndWhatASingleObservati
   const LandmarkId tentative = initialise(test::range_bearing(4.0, 1.0));
   initialise(test::range_alone(4.0, test::marker(1)));
   belief_.landmarks.existence(0).confirm();
-  belief_.records[0].existence = 0.0;
+  belief_.records[0].existence_probability = 0.0;
   next_scan();
   map_.delete_false_tracks(belief_);
   ASSERT_EQ(belief_.landmarks.size(), 2);
@@ -96,7 +123,7 @@ TEST_F(MapManagementTest, ForgetsWhatNoParticleBelievesInAndWhatASingleObservati
   EXPECT_NE(belief_.landmarks[0].id, tentative);
   // The ring that took the index of others is still one whose hypotheses can be missed.
   next_scan();
-  belief_.store.touch(0);
+  belief_.store.gather(0);
   const auto view = belief_.view(0);
   const float before = view.modes[view.mode_count / 2].log_weight[0];
   map_.miss(belief_);

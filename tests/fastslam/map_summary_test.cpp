@@ -50,8 +50,8 @@ TEST_F(MapSummaryTest, IsTheMomentsOfTheMixture) {
     EXPECT_EQ(map.ids[as_index(k)], landmark.id);
     EXPECT_TRUE(matrix_near(map.landmarks.segment<2>(2 * k), landmark.position_m.head<2>(), 1e-12));
     EXPECT_TRUE(matrix_near(map.covariance.block<2, 2>(3 + 2 * k, 3 + 2 * k),
-                            landmark.covariance.topLeftCorner<2, 2>(), 1e-9));
-    EXPECT_NEAR((*landmark.within)(0, 0), 1e-4, 1e-9);
+                            landmark.covariance.topLeftCorner<2, 2>(), 1e-12));
+    EXPECT_NEAR((*landmark.within)(0, 0), static_cast<double>(1e-4F), 1e-12);
   }
   // Landmarks move with the pose that they were seen from: the cross terms are not nothing.
   EXPECT_GT(map.covariance.topRightCorner(3, 4).cwiseAbs().maxCoeff(), 1e-2);

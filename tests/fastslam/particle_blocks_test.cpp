@@ -1,7 +1,6 @@
 #include "waymark/fastslam/particle_blocks.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include <gtest/gtest.h>
 

@@ -57,7 +57,7 @@ class ParticleExistenceTest : public testing::Test {
 TEST_F(ParticleExistenceTest, WhatIsSeenIsSurerWhatShouldHaveBeenIsLessSo) {
   update({test::range_bearing(4.0, 0.0)});
   EXPECT_NEAR(log_odds(0), 1.0 + model_.seen(), 1e-5);
-  EXPECT_NEAR(belief_.records[0].existence, 1.0 / (1.0 + std::exp(-1.0 - model_.seen())), 1e-5);
+  EXPECT_NEAR(belief_.records[0].existence_probability, 1.0 / (1.0 + std::exp(-1.0 - model_.seen())), 1e-5);
   EXPECT_LT(log_odds(1), 1.0F);
 }
 
@@ -70,7 +70,7 @@ TEST_F(ParticleExistenceTest, WhatIsSeenOftenIsConfirmed) {
 TEST_F(ParticleExistenceTest, WhatIsMissedTooOftenHasNoSupport) {
   for (int i = 0; i < 3; ++i) update({test::range_bearing(4.0, 0.0)});
   EXPECT_EQ(log_odds(1), kernels::kAbsent);
-  EXPECT_EQ(belief_.records[1].existence, 0.0);
+  EXPECT_EQ(belief_.records[1].existence_probability, 0.0);
 }
 
 TEST_F(ParticleExistenceTest, AScanWithIdentitiesAloneMissesLandmarksOfThePresentMap) {

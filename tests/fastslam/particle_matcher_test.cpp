@@ -1,6 +1,5 @@
 #include "waymark/fastslam/particle_matcher.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -55,5 +55,16 @@ TEST(SensorModel, NoSensorIsSharperThanAFloatCanTell) {
   EXPECT_NEAR(std::sqrt(seen.R_bb), 1e-6, 1e-10);
 }
 
+/// The variance of the mean of n errors of unit variance, each correlated by rho with the one before, is that
+/// of n independent ones times (1 + rho) / (1 - rho), for many.
+TEST(BiasVarianceFactor, IsThatOfTheMeanOfManyCorrelatedErrors) {
+  for (const double travelled_m : {0.05, 0.3, 2.0}) {
+    const double rho = std::exp(-travelled_m / 0.3);
+    EXPECT_NEAR(bias_variance_factor(travelled_m, 0.3), (1.0 + rho) / (1.0 - rho), 1e-9);
+  }
+  EXPECT_EQ(bias_variance_factor(kFirst_m, 0.3), 1.0);
+  EXPECT_EQ(bias_variance_factor(0.0, 0.3), bias_variance_factor(kMinTravelled_m, 0.3));
+}
+
 }  // namespace
 }  // namespace waymark::fastslam

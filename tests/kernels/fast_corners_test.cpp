@@ -1,7 +1,5 @@
 #include "waymark/kernels/fast_corners.hpp"
 
-#include <memory>
-
 #include "waymark/core/grey_image.hpp"
 
 #include "kernels/kernel_support.hpp"

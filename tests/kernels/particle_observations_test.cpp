@@ -590,7 +590,7 @@ TEST(MissModes, OutOfReachOrTooNearNothingIsMissed) {
   miss_modes(far.observation, 0.9, far.poses, far.range());
   expect_weights(far, {0.2, 0.2, 0.2, 0.2, 0.2});
   ParticleScene near = make_fan();
-  near.observation.mount.least_range = 5.1F;
+  near.observation.mount.min_range = 5.1F;
   miss_modes(near.observation, 0.9, near.poses, near.range());
   expect_weights(near, {0.2, 0.2, 0.2, 0.2, 0.2});
 }

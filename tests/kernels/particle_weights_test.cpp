@@ -1,6 +1,5 @@
 #include "waymark/kernels/particle_weights.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "waymark/core/angle.hpp"

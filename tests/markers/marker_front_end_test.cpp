@@ -47,10 +47,10 @@ std::span<const Observation> observed(const FrontEnd::Seen& seen) {
   return std::get<std::span<const Observation>>(seen);
 }
 
-std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEnd::SharedImage& frame) {
-  front_end.announce(frame);
+std::vector<std::int32_t> seen_in(MarkerFrontEnd& front_end, const MarkerFrontEnd::SharedImage& image) {
+  front_end.announce(image);
   std::vector<std::int32_t> numbers;
-  for (const Observation& each : observed(front_end.see(frame))) numbers.push_back(each.id->number);
+  for (const Observation& each : observed(front_end.see(image))) numbers.push_back(each.id->number);
   return numbers;
 }
 
@@ -69,7 +69,7 @@ TEST(MarkerFinder, ThrowsWhatTheDetectorThrewToWhoeverTakesTheImage) {
   for (const bool own_thread : {true, false}) {
     MarkerFinder finder(std::make_unique<FearsTheDark>(), own_thread);
     const auto light = plain(200), dark = plain(0);
-    for (const auto& frame : {light, dark}) finder.announce(frame);
+    for (const auto& image : {light, dark}) finder.announce(image);
     EXPECT_EQ(finder.take(light).markers.at(0).id, 7);
     EXPECT_THROW(static_cast<void>(finder.take(dark)), std::runtime_error);
   }
@@ -121,7 +121,7 @@ TEST(MarkerFrontEnd, BelievesAnIdentityWhenItLasts) {
 TEST(MarkerFrontEnd, ImagesMayBeAnnouncedLongBeforeAndDropped) {
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
   const auto first = image_of({{1, at(0.0, 2.0)}}), second = image_of({{2, at(0.0, 2.0)}});
-  for (const auto& frame : {first, second, first}) front_end->announce(frame);
+  for (const auto& image : {first, second, first}) front_end->announce(image);
   front_end->drop(first);
   EXPECT_EQ(observed(front_end->see(second))[0].id->number, 2);
   EXPECT_EQ(observed(front_end->see(first))[0].id->number, 1);
@@ -130,13 +130,13 @@ TEST(MarkerFrontEnd, ImagesMayBeAnnouncedLongBeforeAndDropped) {
 TEST(MarkerFrontEnd, TakesCornersThatOthersFound) {
   const Camera camera(test::marker_camera());
   const auto front_end = *MarkerFrontEnd::make(marker_options(), camera);
-  const auto frame = image_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
-  front_end->announce(frame);
-  const auto own = observed(front_end->see(frame));
+  const auto image = image_of({{7, at(0.3, 1.5)}, {3, at(-0.3, 2.0)}});
+  front_end->announce(image);
+  const auto own = observed(front_end->see(image));
   const std::vector<Observation> seen(own.begin(), own.end());
   MarkerOutlines outlines =
       (*markers::make_marker_detector(markers::marker_set(marker_options())->dictionary))
-          ->detect(frame->view());
+          ->detect(image->view());
   std::ranges::reverse(outlines);
   const auto told = front_end->see(outlines);
   ASSERT_EQ(told.size(), seen.size());
@@ -162,10 +162,10 @@ TEST(MarkerFrontEnd, RefusesCornersOfMarkersOfUnknownSize) {
 }
 
 TEST(MarkerFrontEnd, EndsWhileImagesWait) {
-  const auto frame = image_of({{1, at(0.0, 2.0)}});
+  const auto image = image_of({{1, at(0.0, 2.0)}});
   const auto front_end = *MarkerFrontEnd::make(marker_options(), Camera(test::marker_camera()));
-  for (int i = 0; i < 20; ++i) front_end->announce(frame);
-  EXPECT_TRUE(front_end->fits(*frame));
+  for (int i = 0; i < 20; ++i) front_end->announce(image);
+  EXPECT_TRUE(front_end->fits(*image));
   EXPECT_FALSE(front_end->fits(GreyImage(320, 240)));
 }
 

@@ -18,7 +18,7 @@ constexpr double kMarker_m = 0.2;
 
 MarkerOptions options() { return {.dictionary = "4x4_50", .size_m = kMarker_m, .jitter_deg = 0.0}; }
 
-MarkerSighter sighter(const MarkerOptions& how) {
+MarkerObserver make_observer(const MarkerOptions& how) {
   return {Camera(test::marker_camera()), how, *marker_set(how)};
 }
 
@@ -53,13 +53,13 @@ TEST(MarkerObservation, JacobianIsThatOfTheView) {
 TEST(MarkerObservation, OfADrawnMarkerIsWhereItIs) {
   const CameraOptions lens = test::marker_camera();
   const Camera camera(lens);
-  const MarkerSighter sight = sighter(options());
+  const MarkerObserver observer = make_observer(options());
   RandomStream random(3, StreamPurpose::kWorld);
   for (int i = 0; i < 20; ++i) {
     const MarkerPose pose = test::random_marker_pose(random, 0.9);
     GreyImage image(640, 480, 120);
     test::draw_marker(image, camera, pose, kMarker_m, i);
-    const auto seen = sight.sight(image, {i, test::corners_of(camera, pose, kMarker_m)});
+    const auto seen = observer.observe(image, {i, test::corners_of(camera, pose, kMarker_m)});
     ASSERT_TRUE(std::holds_alternative<Observation>(seen)) << i;
     const auto& observation = std::get<Observation>(seen);
     EXPECT_EQ(observation.id, (LandmarkId{LandmarkId::Family::kMarker, i}));
@@ -76,7 +76,7 @@ TEST(MarkerObservation, CovarianceIsHonest) {
   const CameraOptions lens = test::marker_camera();
   const Camera camera(lens);
   const MarkerOptions how = options();
-  const MarkerSighter sight = sighter(how);
+  const MarkerObserver observer = make_observer(how);
   RandomStream random(4, StreamPurpose::kWorld);
   constexpr int kDraws = 2000;
   double sum = 0.0;
@@ -85,7 +85,7 @@ TEST(MarkerObservation, CovarianceIsHonest) {
     RefinedCorners corners{test::corners_of(camera, pose, kMarker_m), 0.3 * CornerCovariance::Identity()};
     const double noise_px = how.side_sigma_px * std::sqrt(0.3);
     for (auto& corner : corners.corners_px) corner += noise_px * Vector2d(random.normal(), random.normal());
-    const auto seen = sight.sight(corners, 1);
+    const auto seen = observer.observe(corners, 1);
     ASSERT_TRUE(std::holds_alternative<Observation>(seen));
     const auto& observation = std::get<Observation>(seen);
     const auto& z = std::get<RangeBearing>(observation.value);
@@ -98,13 +98,13 @@ TEST(MarkerObservation, CovarianceIsHonest) {
 
 TEST(MarkerObservation, FarMarkersAreLessCertain) {
   const Camera camera(test::marker_camera());
-  const MarkerSighter sight = sighter(options());
+  const MarkerObserver observer = make_observer(options());
   double last = 0.0;
   for (const double depth_m : {1.0, 2.0, 4.0}) {
     MarkerPose pose;
     pose.p_camera_marker = {0.1, 0.0, depth_m};
     const auto seen =
-        sight.sight({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
+        observer.observe({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
     const double variance = (*std::get<Observation>(seen).covariance)(0, 0);
     EXPECT_GT(variance, 3.0 * last);
     last = variance;
@@ -119,20 +119,20 @@ TEST(MarkerObservation, AShakingMountMovesTheBearing) {
                                1e-6 * CornerCovariance::Identity()};
   MarkerOptions how = options();
   how.jitter_deg = 0.1;
-  const auto seen = sighter(how).sight(corners, 1);
+  const auto seen = make_observer(how).observe(corners, 1);
   EXPECT_NEAR(std::sqrt((*std::get<Observation>(seen).covariance)(1, 1)), to_radians(0.1),
               0.1 * to_radians(0.1));
 }
 
 TEST(MarkerObservation, RefusesMarkersSeenEdgeOn) {
   const Camera camera(test::marker_camera());
-  const MarkerSighter sight = sighter(options());
+  const MarkerObserver observer = make_observer(options());
   for (const double tilt_deg : {70.0, 80.0}) {
     MarkerPose pose;
     pose.p_camera_marker = {0.0, 0.0, 1.0};
     pose.R_camera_marker = Eigen::AngleAxisd(to_radians(tilt_deg), Vector3d::UnitY()).toRotationMatrix();
     const auto seen =
-        sight.sight({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
+        observer.observe({test::corners_of(camera, pose, kMarker_m), CornerCovariance::Identity()}, 1);
     const auto* why = std::get_if<Refusal>(&seen);
     EXPECT_EQ(why != nullptr && *why == Refusal::kEdgeOn, tilt_deg > 75.0) << tilt_deg;
   }
@@ -143,7 +143,7 @@ TEST(MarkerObservation, RefusesWhatNobodyKnowsTheSizeOf) {
   how.size_m = 0.0;
   how.sizes_m = "3: 0.2";
   const GreyImage wall(640, 480, 120);
-  const auto seen = sighter(how).sight(wall, {4, {}});
+  const auto seen = make_observer(how).observe(wall, {4, {}});
   EXPECT_EQ(std::get<Refusal>(seen), Refusal::kNoSize);
 }
 

@@ -81,6 +81,7 @@ TEST(RangeBearingModel, LocateIsTheInverseOfThePrediction) {
     const RangeBearing z{h.predicted.x(), h.predicted.y()};
     const auto located = RangeBearingModel::locate(T_world_robot, T_robot_sensor, z);
     EXPECT_TRUE(matrix_near(located.p_world, p_world, 1e-12));
+    EXPECT_TRUE(matrix_near(T_world_robot * T_robot_sensor * position_in_sensor(z), p_world, 1e-12));
     // h(x, g(x, z)) = z for all x and z, so H_pose + H_landmark G_pose = 0 and H_landmark G_measurement = 1.
     EXPECT_TRUE(
         matrix_near(h.H_pose + h.H_landmark * located.G_pose, Eigen::Matrix<double, 2, 3>::Zero(), 1e-11));

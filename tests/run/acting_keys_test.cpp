@@ -49,19 +49,36 @@ TEST(ActingKeys, FollowWhatIsRun) {
   EXPECT_TRUE(acts("ekf.consistency"));
   EXPECT_FALSE(acts("ekf.likelihood"));
   EXPECT_FALSE(acts("sensor.range_sigma_m"));
+  EXPECT_TRUE(acts("sensor.delay_s"));
   LogInfo bag = log_of("ROS 2 bag");
   bag.topics.emplace_back();
   EXPECT_TRUE(acts("input.stamps", bag));
   EXPECT_FALSE(acts("input.robot", bag));
+  config.observe = Observe::kRangeBearing;
+  EXPECT_TRUE(acts("camera.mount_yaw_deg", bag));
+  EXPECT_FALSE(acts("camera.mount_yaw_deg"));
+  EXPECT_FALSE(acts("camera.fu_px", bag));
 }
 
 TEST(ActingKeys, AreAllTheSettingsOfALogThatCount) {
-  Config config;
-  config.observe = Observe::kPixel;
-  Config again;
-  Schema schema = describe(again);
-  ASSERT_TRUE(schema.load_text(acting_yaml(config, log_of("simulation"), std::nullopt), "again").ok());
-  EXPECT_EQ(again.observe, Observe::kPixel);
+  LogInfo bag = log_of("ROS 2 bag");
+  bag.topics.emplace_back();
+  for (const Observe observe : {Observe::kPixel, Observe::kRangeBearing, Observe::kMarkers}) {
+    Config config;
+    config.observe = observe;
+    config.sensor.delay_s = 0.25;
+    config.camera.mount.z_m = 1.5;
+    config.odometry.noise.turn_var_rad2_per_m = 0.125;
+    const std::string yaml = acting_yaml(config, bag, std::nullopt);
+    Config again;
+    Schema schema = describe(again);
+    ASSERT_TRUE(schema.load_text(yaml, "again").ok());
+    EXPECT_EQ(acting_yaml(again, bag, std::nullopt), yaml);
+    EXPECT_EQ(again.observe, observe);
+    EXPECT_EQ(again.sensor.delay_s, 0.25) << "shifts images and pixels, too";
+    EXPECT_EQ(again.camera.mount.z_m, 1.5) << "detections in a bag are seen from there";
+    EXPECT_EQ(again.odometry.noise.turn_var_rad2_per_m, 0.125);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "workbench/run/article_methods.hpp"
 
+#include <array>
+#include <cstddef>
+
 #include <gtest/gtest.h>
 
 namespace waymark {
@@ -28,10 +31,24 @@ TEST(ArticleMethods, AreSetByOneKeyAndTakenBack) {
 }
 
 TEST(ArticleMethods, NeedEachOfTheirParts) {
-  Config config;
-  use_article_methods(config, true);
-  config.tracker.finder.warp = true;
-  EXPECT_FALSE(uses_article_methods(config));
+  static const Config usual;
+  using Undo = void (*)(Config&);
+  constexpr std::array kParts{
+      Undo{[](Config& c) { c.odometry.arc = usual.odometry.arc; }},
+      Undo{[](Config& c) { c.search.match = usual.search.match; }},
+      Undo{[](Config& c) { c.tracker.finder.warp = usual.tracker.finder.warp; }},
+      Undo{[](Config& c) { c.tracker.finder.subpixel = usual.tracker.finder.subpixel; }},
+      Undo{[](Config& c) { c.tracker.instructions = usual.tracker.instructions; }},
+      Undo{[](Config& c) { c.pixel.init = usual.pixel.init; }},
+      Undo{[](Config& c) { c.pixel.depth.spacing = usual.pixel.depth.spacing; }},
+      Undo{[](Config& c) { c.pixel.update = usual.pixel.update; }}};
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    Config config;
+    use_article_methods(config, true);
+    ASSERT_TRUE(uses_article_methods(config));
+    kParts[i](config);
+    EXPECT_FALSE(uses_article_methods(config)) << "part " << i;
+  }
 }
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
+
+#include "waymark/core/angle.hpp"
+#include "waymark/core/sensor_bias.hpp"
 
 #include "slam/images.hpp"
 #include "workbench/logs/event_list.hpp"
@@ -284,6 +288,43 @@ TEST(MakeFilter, RefusesAModeThatTheFilterDoesNotHave) {
   const auto run = record_study({"associate=ml"});
   ASSERT_FALSE(run.ok());
   EXPECT_NE(run.error().message.find("associate"), std::string::npos);
+  for (const std::string filter : {"ekf", "fastslam"}) {
+    const auto article = record_study({"pixel.article=true", "filter=" + filter});
+    ASSERT_FALSE(article.ok()) << filter;
+    EXPECT_NE(article.error().message.find("pixel.article"), std::string::npos) << article.error().message;
+  }
+}
+
+Recording record_start(const std::string& input, std::vector<std::string> settings, double to_s) {
+  auto opened = open_input(input, {{}, std::move(settings)}).value();
+  return record(*opened.source, opened.config, {0.0, to_s}).value();
+}
+
+TEST(MakeFilter, TakesThePriorOfTheOdometryFromTheKeysOfTheSmoother) {
+  const auto run = record_start("sim:study",
+                                {"ekf.calibrate_odometry=true", "motion.speed_scale_sigma=0.01",
+                                 "motion.turn_scale_sigma=0.02", "motion.turn_bias_sigma_degps=0.3"},
+                                0.5);
+  const auto prior = run.filter->calibration().value().prior_sigmas;
+  EXPECT_EQ(prior[kSpeedScale], 0.01);
+  EXPECT_EQ(prior[kTurnScale], 0.02);
+  EXPECT_EQ(prior[kTurnBias], to_radians(0.3));
+}
+
+TEST(MakeFilter, GivesFilterAndFrontEndTheSameNumberOfCandidates) {
+  // Too few images for any candidate to become a landmark.
+  const auto candidates = [](const std::string& most) {
+    return record_start("sim:room", {"pixel.max_candidates=" + most}, 0.2).patches.size();
+  };
+  EXPECT_EQ(candidates("1"), 1U);
+  EXPECT_GT(candidates("16"), 8U);
+}
+
+TEST(MakeFilter, LetsTheCameraShakePixelsAsItShakesMarkers) {
+  const auto covariance = [](const std::string& jitter_deg) {
+    return record_start("sim:room", {"camera.jitter_deg=" + jitter_deg}, 1.0).filter->pose().covariance;
+  };
+  EXPECT_LT(covariance("0.05").determinant(), covariance("1").determinant());
 }
 
 TEST(Recording, HasTheBlocksOfFilterAndFrontEndInOneTable) {

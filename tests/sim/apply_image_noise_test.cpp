@@ -48,13 +48,13 @@ TEST_P(ApplyImageNoise, EqualsThePlainFormulaToTheLastBit) {
 }
 
 TEST_P(ApplyImageNoise, NoiseIsThatOfTheWordsOfPhilox) {
-  const ImageNoiseModel d = some_noise_model();
+  const ImageNoiseModel model = some_noise_model();
   AlignedArray<float> noise(kPadded);
-  draw_pixel_noise(d, 5, kWidth, noise.data());
+  draw_pixel_noise(model, 5, kWidth, noise.data());
   for (std::uint32_t i = 0; i < kPadded; ++i) {
     const auto words =
-        philox4x32({i / 64 * 16 + i % 16, d.purpose << 24, d.frame, 5},
-                   {static_cast<std::uint32_t>(d.seed), static_cast<std::uint32_t>(d.seed >> 32)});
+        philox4x32({i / 64 * 16 + i % 16, model.purpose << 24, model.frame, 5},
+                   {static_cast<std::uint32_t>(model.seed), static_cast<std::uint32_t>(model.seed >> 32)});
     const std::uint32_t word = words[i % 64 / 16];
     const std::uint32_t sum = (word & 255) + (word >> 8 & 255) + (word >> 16 & 255) + (word >> 24);
     ASSERT_NEAR(noise[i], (static_cast<float>(sum) - 510.0F) / 147.80054F * 3.0F, 1e-5F) << i;
@@ -64,12 +64,12 @@ TEST_P(ApplyImageNoise, NoiseIsThatOfTheWordsOfPhilox) {
 // 64000 numbers: the mean has a standard deviation of 0.004 sigma, the standard deviation one of 0.003 sigma,
 // and the correlation of neighbours one of 0.004.
 TEST_P(ApplyImageNoise, NoiseHasItsMomentsAndNoMemory) {
-  ImageNoiseModel d = some_noise_model();
+  ImageNoiseModel model = some_noise_model();
   AlignedArray<float> noise(64);
   double sum = 0.0, squares = 0.0, neighbours = 0.0;
-  for (d.frame = 0; d.frame < 10; ++d.frame) {
+  for (model.frame = 0; model.frame < 10; ++model.frame) {
     for (std::uint32_t row = 0; row < 100; ++row) {
-      draw_pixel_noise(d, row, 64, noise.data());
+      draw_pixel_noise(model, row, 64, noise.data());
       for (std::size_t i = 0; i < 64; ++i) {
         const double n = static_cast<double>(noise[i]) / 3.0;
         sum += n;
@@ -88,16 +88,16 @@ TEST(ApplyImageNoiseReference, ABlurKeepsWhatIsEvenAndSpreadsAPointByItsWeights)
   Light light(random);
   for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] = 0.0F;
   light.values[kBlurRadiusMax * kPadded + 50] = 200.0F;
-  ImageNoiseModel d{.weights = {0.5F, 0.2F, 0.04F, 0.01F}};
+  ImageNoiseModel model{.weights = {0.5F, 0.2F, 0.04F, 0.01F}};
   std::vector<std::uint8_t> out(kPadded);
-  reference::apply_image_noise(d, 0, light.rows, kWidth, light.scratch.data(), light.noise.data(),
+  reference::apply_image_noise(model, 0, light.rows, kWidth, light.scratch.data(), light.noise.data(),
                                out.data());
   EXPECT_EQ(out[50], 50);
   EXPECT_EQ(out[49], 20);
   EXPECT_EQ(out[52], 4);
   EXPECT_EQ(out[54], 0);
   for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] = 90.0F;
-  reference::apply_image_noise(d, 0, light.rows, kWidth, light.scratch.data(), light.noise.data(),
+  reference::apply_image_noise(model, 0, light.rows, kWidth, light.scratch.data(), light.noise.data(),
                                out.data());
   for (std::size_t i = 0; i < kWidth; ++i) ASSERT_EQ(out[i], 90) << i;
 }

@@ -30,6 +30,23 @@ TEST(SimOptions, ScenariosDriveDifferentPaths) {
   EXPECT_EQ(scenario("report-square")->wheels.odometry, SimulatedOdometry::kVelocity);
 }
 
+/// All keys with their values.
+std::string text_of(SimOptions options) {
+  Schema schema;
+  describe(schema, options);
+  return schema.to_yaml();
+}
+
+TEST(SimOptions, TheSquareIsTheDefaultAndOtherPathsDifferByTheirShapeAlone) {
+  EXPECT_EQ(text_of(scenario("square").value()), text_of({}));
+  for (const std::string name : {"l-shape", "figure-eight", "random"}) {
+    SimOptions options = scenario(name).value();
+    EXPECT_NE(options.path.shape, Shape::kSquare) << name;
+    options.path.shape = Shape::kSquare;
+    EXPECT_EQ(text_of(options), text_of({})) << name;
+  }
+}
+
 TEST(SimOptions, AFileIsAScenarioToo) {
   const test::TempFolder folder;
   const auto file = folder.write("mine.yaml", "sim:\n  path: loop\n  landmarks: 5\n");

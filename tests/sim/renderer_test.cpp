@@ -39,7 +39,7 @@ GreyImage render(const Camera& camera, const Scene& scene, const Viewpoint& view
   ThreadPool pool(threads);
   Renderer renderer(camera, pool);
   renderer.expose(scene.textures, scene.rectangles, viewpoint, 1.0);
-  return renderer.develop({.weights = {0.6F, 0.19F, 0.01F, 0.0F}});
+  return renderer.apply_image_noise({.weights = {0.6F, 0.19F, 0.01F, 0.0F}});
 }
 
 double grey_at(const GreyImage& image, const Vector2d& pixel) {

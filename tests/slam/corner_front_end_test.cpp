@@ -25,14 +25,14 @@ struct Robot {
     Stamp stamp;
     Pose2 dead_reckoning;
     PoseEstimate pose;
-    bool frame = false;
+    bool image = false;
   };
 
   explicit Robot(const PipelineOptions& options = {})
       : pipeline(
             filter, options, {}, {}, Observe::kPixel,
             [this](const Step& step) {
-              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.frame != nullptr});
+              steps.push_back({step.stamp, step.dead_reckoning, step.pose, step.image != nullptr});
             },
             &front_end) {}
 
@@ -54,7 +54,7 @@ TEST(CornerFrontEnd, LooksIntoAnImageFromWhereItWasTaken) {
   Robot robot;
   robot.drive(1.0, {taken(0.25, noise_image(1)), taken(0.75, noise_image(2))});
   ASSERT_EQ(robot.steps.size(), 4U);
-  EXPECT_TRUE(robot.steps[1].frame && robot.steps[2].frame);
+  EXPECT_TRUE(robot.steps[1].image && robot.steps[2].image);
   EXPECT_NEAR(robot.steps[1].dead_reckoning.x_m, 0.25, 1e-9);
   EXPECT_NEAR(robot.steps[2].dead_reckoning.x_m, 0.75, 1e-9);
   EXPECT_EQ(robot.pipeline.counts().images, 2);

@@ -22,8 +22,8 @@ inline std::shared_ptr<const GreyImage> plain_image(std::uint8_t grey) {
   return std::make_shared<const GreyImage>(320, 240, grey);
 }
 
-inline Event taken(double seconds, std::shared_ptr<const GreyImage> frame) {
-  return {stamp_from_seconds(seconds), Image{"", std::move(frame)}};
+inline Event taken(double seconds, std::shared_ptr<const GreyImage> image) {
+  return {stamp_from_seconds(seconds), Image{"", std::move(image)}};
 }
 
 }  // namespace waymark::test

@@ -69,9 +69,10 @@ TEST(Solve, WhatIsLeftOverAndWhatWasFollowedMakeUpTheNoise) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const World world = drive(seed, 60);
     const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
-    ASSERT_EQ(solution.remainders.size(), world.graph.observations.size());
-    for (std::size_t i = 0; i < solution.remainders.size(); ++i, ++count)
-      ratio += (solution.remainders[i].residual.cwiseAbs2() + solution.remainders[i].followed)
+    ASSERT_EQ(solution.observation_residuals.size(), world.graph.observations.size());
+    for (std::size_t i = 0; i < solution.observation_residuals.size(); ++i, ++count)
+      ratio += (solution.observation_residuals[i].residual.cwiseAbs2() +
+                solution.observation_residuals[i].followed)
                    .cwiseQuotient(world.graph.observations[i].covariance.diagonal());
   }
   ratio /= count;
@@ -88,8 +89,8 @@ TEST(Solve, WhatIsLeftOverOfIntervalsAndWhatWasFollowedMakeUpTheirNoise) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const World world = drive(seed, 60);
     const Solution solution = solve(world.graph, world.start, {.robust_dof = 1e6});
-    ASSERT_EQ(solution.interval_remainders.size(), world.graph.intervals.size());
-    for (const IntervalRemainder& interval : solution.interval_remainders) {
+    ASSERT_EQ(solution.interval_residuals.size(), world.graph.intervals.size());
+    for (const IntervalResidual& interval : solution.interval_residuals) {
       ratio += (interval.residual.cwiseAbs2() + interval.followed).cwiseQuotient(interval.stated);
       ++count;
     }

@@ -59,12 +59,12 @@ TEST(TuneKeys, RefuseWhatCannotBeTuned) {
 
 TEST(TuneKeys, DefaultsAreTheNoiseOfWhatTheLogHas) {
   Config config;
-  EXPECT_THAT(default_tune_keys(config, OdometryInput::kWheelAngles),
+  EXPECT_THAT(default_tune_keys(config, OdometryKind::kWheels),
               ElementsAre("motion.wheel_var_m2_per_m", "motion.turn_var_rad2_per_rad", "sensor.range_sigma_m",
                           "sensor.bearing_sigma_deg"));
   config.observe = Observe::kRange;
   config.sensor.range_sigma_ratio = 0.01;
-  EXPECT_THAT(default_tune_keys(config, OdometryInput::kNone),
+  EXPECT_THAT(default_tune_keys(config, std::nullopt),
               ElementsAre("sensor.range_sigma_m", "sensor.range_sigma_ratio"));
 }
 
@@ -72,8 +72,8 @@ TEST(TuneKeys, AllDefaultsCanBeTuned) {
   Config config;
   for (const Observe observe :
        {Observe::kRangeBearing, Observe::kRange, Observe::kBearing, Observe::kPixel, Observe::kMarkers})
-    for (const OdometryInput odometry : {OdometryInput::kWheelAngles, OdometryInput::kVelocity,
-                                         OdometryInput::kSteering, OdometryInput::kOdometryPose}) {
+    for (const OdometryKind odometry :
+         {OdometryKind::kWheels, OdometryKind::kVelocity, OdometryKind::kSteering, OdometryKind::kPose}) {
       config.observe = observe;
       const auto names = default_tune_keys(config, odometry);
       EXPECT_GE(names.size(), 3U);

@@ -34,7 +34,7 @@ TEST(TuneInput, MayHaveSettingsOfItsOwn) {
 TEST(TuneLog, EveryObservationOfARunIsATermOfItsScore) {
   const auto log = TuneLog::open("sim:square", kQuickUser);
   ASSERT_TRUE(log.ok()) << log.error().message;
-  EXPECT_EQ(log->odometry(), OdometryInput::kWheelAngles);
+  EXPECT_EQ(log->odometry(), OdometryKind::kWheels);
   UserSettings user = kQuickUser;
   user.assignments.emplace_back("sensor.range_sigma_m=0.2");
   user.assignments.emplace_back("smooth.run=true");  // keeps the observations

@@ -12,7 +12,7 @@
 namespace waymark::test {
 
 /// What every filter must do with observations that have no identity. A Kind says which filter: make(world),
-/// and make_small(world) for a map of five landmarks that gives none away.
+/// and make_small(world) for a map of five landmarks.
 template <class Kind>
 class UnknownIdentityFilter : public testing::Test {};
 

@@ -1,6 +1,5 @@
 // A camera carried over a desk (Davison's sequence for MonoSLAM): corners cut in one image are found in the
 // next one, and the corners of a known target where its camera model says.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -37,7 +36,7 @@ GreyImage frame(int number) {
 
 Eigen::Matrix2d isotropic(double sigma_px) { return sigma_px * sigma_px * Eigen::Matrix2d::Identity(); }
 
-/// Where what is at a place of one image is in another one, looked for around `predicted`.
+/// Where what is at a place of one image is in another one, searched for around `predicted`.
 std::optional<Eigen::Vector2d> follow(const ImageView& from, const Eigen::Vector2d& place,
                                       const ImageView& to, const Eigen::Vector2d& predicted) {
   constexpr double kPrediction_px = 3.0;

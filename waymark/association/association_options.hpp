@@ -11,12 +11,13 @@ struct AssociationOptions {
   double false_alarm_probability = 0.02;  ///< Pfa: that something else is taken for it
   double clutter_per_scan = 1.0;          ///< observations of nothing
   double landmarks_per_m2 = 0.1;          ///< still unknown ones in a place not seen before
-  double confirmed_log_odds = 6.0;        ///< from which a landmark counts in the map
-  double max_log_odds = 12.0;             ///< where certainty ends
-  int max_pairings = 2000;                ///< tried per scan where pairs are decided jointly
 };
 
-/// A landmark that was never confirmed is given up after this way without an observation.
+/// From these log-odds of existence on a landmark counts in the map.
+inline constexpr double kConfirmedLogOdds = 6.0;
+/// Observations do not raise the log-odds of existence above this.
+inline constexpr double kMaxLogOdds = 12.0;
+/// A landmark that was never confirmed is removed after this distance without an observation.
 inline constexpr double kTentativeDistance_m = 5.0;
 
 /// Parameters of data association. The log-odds of a landmark's existence start at 0, grow by log(Pd / Pfa)
@@ -31,14 +32,11 @@ class AssociationModel {
   [[nodiscard]] double missed() const { return missed_; }
   /// The log-odds after an observation: at least those of a landmark that has just been met.
   [[nodiscard]] double after_observation(double log_odds) const {
-    return log_odds < 0.0 ? 0.0 : std::min(options_.max_log_odds, log_odds + seen_);
+    return log_odds < 0.0 ? 0.0 : std::min(kMaxLogOdds, log_odds + seen_);
   }
-  [[nodiscard]] double confirmed() const { return options_.confirmed_log_odds; }
-  [[nodiscard]] double most() const { return options_.max_log_odds; }
 
   /// Density of landmarks that are not known yet, per m^2.
   [[nodiscard]] double landmarks_per_m2() const { return options_.landmarks_per_m2; }
-  [[nodiscard]] int max_pairings() const { return options_.max_pairings; }
 
   /// log of the density, per metre of range and radian of bearing, of observations of nothing known: clutter
   /// is even over range and bearing, unknown landmarks over the ground.

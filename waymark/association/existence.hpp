@@ -24,7 +24,7 @@ class Existence {
   void see(const AssociationModel& model) {
     if (is_certain()) return;
     log_odds_ = model.after_observation(log_odds_);
-    confirmed_ = confirmed_ || log_odds_ >= model.confirmed();
+    confirmed_ = confirmed_ || log_odds_ >= kConfirmedLogOdds;
   }
   void miss(const AssociationModel& model) { log_odds_ += model.missed(); }
   /// For filters that count otherwise.

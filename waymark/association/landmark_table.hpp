@@ -39,7 +39,7 @@ class LandmarkTable {
  public:
   explicit LandmarkTable(int capacity);
 
-  /// The robot moves on, by a way as travelled_m() measures it, turns included.
+  /// The robot moves on, by a distance as travelled_m() measures it, turns included.
   void travel(double distance_m) { travelled_m_ += distance_m; }
   /// Scans count from 1; what came before, such as a loaded map, is of scan 0.
   void begin_scan();

@@ -18,10 +18,10 @@ class Recovery {
   /// Counts the outcomes of one scan, once. True if the robot is lost. O(observations).
   [[nodiscard]] bool is_lost(std::span<const Innovation> innovations);
 
-  /// Calls `inflate(slip)` while `innovations` are mostly gated: it makes the pose less sure by the motion
-  /// `added_motion`, of zero mean and independent in x, y and theta (robot frame), and gates again what was
-  /// gated. The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight at most:
-  /// about 3 m and 3 rad in all.
+  /// Calls `inflate(added_motion)` while `innovations` are mostly gated: it makes the pose less sure by the
+  /// motion `added_motion`, of zero mean and independent in x, y and theta (robot frame), and gates again
+  /// what was gated. The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight
+  /// at most: about 3 m and 3 rad in all.
   template <class Inflate>
   void recover(std::span<const Innovation> innovations, const Inflate& inflate) {
     ++recoveries_;

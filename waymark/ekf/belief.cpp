@@ -25,8 +25,8 @@ Eigen::Matrix2d Belief::innovation_covariance(const LinearizedObservation& linea
 
 Eigen::Matrix2d Belief::common_covariance(const LinearizedObservation& a,
                                           const LinearizedObservation& b) const {
-  const Touched t = layout_.touched(a, 2);
-  const Touched u = layout_.touched(b, 2);
+  const SparseJacobian t = layout_.jacobian(a, 2);
+  const SparseJacobian u = layout_.jacobian(b, 2);
   Eigen::Matrix2d common = Eigen::Matrix2d::Zero();
   for (Eigen::Index i = 0; i < t.J.cols(); ++i) {
     const Eigen::Vector2d J_a = t.J.col(i).head<2>();
@@ -41,7 +41,7 @@ Eigen::Matrix2d Belief::common_covariance(const LinearizedObservation& a,
 }
 
 Eigen::Matrix<double, 3, 2> Belief::pose_correlation(const LinearizedObservation& linearized) const {
-  const Touched t = layout_.touched(linearized, 2);
+  const SparseJacobian t = layout_.jacobian(linearized, 2);
   Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
   for (int i = 0; i < 3; ++i)
     for (Eigen::Index j = 0; j < t.J.cols(); ++j)

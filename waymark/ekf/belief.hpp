@@ -39,15 +39,13 @@ class Belief {
   }
 
   /// Expected values of a pair of biases; zero at first, and certainly so.
-  [[nodiscard]] Eigen::Vector2d errors(int pair) const { return error_pair(x_.data(), pair); }
+  [[nodiscard]] Eigen::Vector2d biases(int pair) const { return bias_pair(x_.data(), pair); }
   /// Covariance of a pair with another, or with itself.
-  [[nodiscard]] Eigen::Matrix2d errors_covariance(int pair, int other) const {
-    return P_.block<2>(error_offset(pair), error_offset(other));
+  [[nodiscard]] Eigen::Matrix2d bias_covariance(int pair, int other) const {
+    return P_.block<2>(bias_offset(pair), bias_offset(other));
   }
   /// What is expected of the errors in an observation.
-  [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const {
-    return error_part(x_.data(), terms);
-  }
+  [[nodiscard]] Eigen::Vector2d expected(const BiasTerms& terms) const { return bias_part(x_.data(), terms); }
 
   /// Where Jacobians are to be taken: the present estimate, or the first ones with kFej.
   [[nodiscard]] Pose2 linearization_pose() const { return StateLayout::pose(linearization()); }

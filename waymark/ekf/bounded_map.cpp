@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxAnchors = 40;
 /// Linearity index below which a ray may be kept as a point (x, y, z) (Civera, Davison, Montiel 2008).
 constexpr double kLinear = 0.1;
-/// Standard deviation of the depth over the depth below which a ray that has to be settled is kept as a
+/// Standard deviation of the depth over the depth below which a ray that has to be converted is kept as a
 /// point. Nobody sees it at the time, and without a view its linearity index says nothing.
 constexpr double kFairlySure = 0.1;
 
@@ -23,7 +23,7 @@ constexpr double kFairlySure = 0.1;
 BoundedMap::BoundedMap(const PixelSlamOptions& options, const Camera& camera, int threads)
     : map_(options.capacity, kMaxAnchors, options.consistency, threads,
            PixelNoise(options).has_jitter() ? 1 : 0),
-      management_(options.evict, options.capacity),
+      management_(options.capacity),
       camera_(camera),
       min_rho_per_m_(1.0 / options.depth.farthest_m) {
   removed_.reserve(static_cast<std::size_t>(options.capacity + options.max_candidates));
@@ -86,14 +86,14 @@ void BoundedMap::retire() {
     if (management_.keeps_failing(i)) remove(i);
 }
 
-void BoundedMap::matched(int feature, const PoseObservation& linearization) {
+void BoundedMap::matched(int feature, const PoseObservation& observation) {
   ++map_.feature(feature).observations;
-  management_.matched(feature, linearization);
+  management_.matched(feature, observation);
 }
 
 bool BoundedMap::make_room() {
   if (!map_.is_full()) return true;
-  const auto least_useful = management_.evicts() ? management_.least_useful() : std::nullopt;
+  const auto least_useful = management_.least_useful();
   if (least_useful) remove(*least_useful);
   return least_useful.has_value();
 }
@@ -112,11 +112,11 @@ bool BoundedMap::free_an_anchor() {
     if (map_.holders(static_cast<int>(a)) > rays[a]) worth[a] = HUGE_VAL;
   const auto least = std::ranges::min_element(worth);
   if (!std::isfinite(*least)) return false;
-  settle_all_of(static_cast<int>(least - worth.begin()));
+  convert_rays_of(static_cast<int>(least - worth.begin()));
   return true;
 }
 
-void BoundedMap::settle_all_of(int anchor) {
+void BoundedMap::convert_rays_of(int anchor) {
   for (int i = static_cast<int>(map_.features().size()) - 1; i >= 0; --i) {
     if (map_.feature(i).anchor != anchor) continue;
     const auto [rho, sigma] = inverse_depth(i);
@@ -128,8 +128,8 @@ void BoundedMap::settle_all_of(int anchor) {
 }
 
 int BoundedMap::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
-                        const Eigen::Matrix3d& covariance, const ErrorTerms& errors, int observations) {
-  const int index = map_.add_ray(id, anchor, ray, covariance, errors);
+                        const Eigen::Matrix3d& covariance, int observations) {
+  const int index = map_.add_ray(id, anchor, ray, covariance);
   management_.added();
   map_.feature(index).observations = observations;
   map_.feature(index).seen_from_m = camera_.pose(map_.anchor_pose(anchor)).p_world_camera;
@@ -141,7 +141,7 @@ void BoundedMap::give_up(LandmarkId candidate, int anchor) {
   map_.release(anchor);
 }
 
-void BoundedMap::settle(int feature, const Eigen::Vector3d& p_world_camera) {
+void BoundedMap::convert_ray(int feature, const Eigen::Vector3d& p_world_camera) {
   const PixelMap::Feature& ray = map_.feature(feature);
   if (ray.is_point()) return;
   const auto [rho, sigma] = inverse_depth(feature);

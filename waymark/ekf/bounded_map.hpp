@@ -35,7 +35,7 @@ class BoundedMap {
   /// Landmarks that were missed in more than half of at least ten attempts leave.
   void retire();
   /// The landmark was found where it was expected.
-  void matched(int feature, const PoseObservation& linearization);
+  void matched(int feature, const PoseObservation& observation);
   /// The landmark was looked for and not found, or found where it cannot be.
   void missed(int feature) { management_.missed(feature); }
   /// Who left since the image began: landmarks, and candidates that were given up.
@@ -43,19 +43,19 @@ class BoundedMap {
 
   /// Whether there is room for one more landmark, if need be by removing the least useful one.
   [[nodiscard]] bool make_room();
-  /// Whether there is a free anchor, if need be by settling the rays of the one whose rays are least useful
-  /// of those that nobody sees or needs: those of fairly sure depth as points, the others are removed.
+  /// Whether there is a free anchor, if need be by converting the rays of the one whose rays are least
+  /// useful of those that nobody sees or needs: those of fairly sure depth to points, the others are removed.
   [[nodiscard]] bool free_an_anchor();
   /// Appends a ray (x, y, rho) as PixelMap::add_ray() does, seen in so many images already. Its index. The
   /// map must not be full.
   int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
-              const ErrorTerms& errors, int observations);
+              int observations);
   /// A candidate that stood on an anchor will be no landmark.
   void give_up(LandmarkId candidate, int anchor);
 
   /// A ray that has become as good as linear goes on as a point; one that leads behind infinity goes. Only
   /// where it was just seen, by a camera at `p_world_camera`: from elsewhere any ray may look linear.
-  void settle(int feature, const Eigen::Vector3d& p_world_camera);
+  void convert_ray(int feature, const Eigen::Vector3d& p_world_camera);
 
  private:
   struct InverseDepth {
@@ -63,7 +63,7 @@ class BoundedMap {
   };
 
   [[nodiscard]] InverseDepth inverse_depth(int feature) const;
-  void settle_all_of(int anchor);
+  void convert_rays_of(int anchor);
   void remove(int feature);
 
   PixelMap map_;

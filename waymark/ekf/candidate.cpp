@@ -41,7 +41,7 @@ std::optional<CandidatePrediction::PredictedPixel> CandidatePrediction::at(doubl
   H << h->H_pose, h->H_anchor;
   const Eigen::Matrix2d H_xy = h->H_ray.leftCols<2>();
   const PixelNoise& noise = prediction_.noise();
-  const ErrorTerms jittered = noise.attitude_jitter(h->p_camera, h->dpixel_dpoint);
+  const BiasTerms jittered = noise.attitude_jitter(h->p_camera, h->dpixel_dpoint);
   const Eigen::Matrix2d J = jittered[0].J.topRows<2>();
   const double process_noise_px2 = rho_per_m > 0.0
                                        ? noise.process_noise_px2(point_of_ray(anchor_, ray).p_world,

@@ -43,7 +43,7 @@ class CandidatePrediction {
     Eigen::Matrix2d S;      ///< px^2, without the noise of the pixel
   };
   /// At inverse depth rho, 1/m: S = H P H^T + H_xy R_xy H_xy^T, jitter, and how far its patch has
-  /// wandered. Nothing where it cannot be seen.
+  /// drifted. Nothing where it cannot be seen.
   [[nodiscard]] std::optional<PredictedPixel> at(double rho_per_m) const;
   /// Mean and covariance of all pixels that its depths predict, by three of them (Gauss and Hermite). Nothing
   /// where it should not be looked for.

@@ -12,8 +12,6 @@ constexpr int kSmallestSubmap = State::kMaxObservations * 3 / 2;
 /// A submap has room for this many times what is seen at once, and a part in so many of it stays for the
 /// next.
 constexpr int kSubmapPerView = 3;
-/// Over how many updates the work of a switch of submap is spread, if there is time.
-constexpr double kSpread = 256.0;
 
 int submap_capacity(int capacity, const Compression& compression) {
   return std::min(capacity, std::max(compression.onset, kSubmapPerView * compression.submap));
@@ -24,14 +22,30 @@ int slots_for(int capacity, const Compression& compression) {
   return never ? 0 : capacity + submap_capacity(capacity, compression);
 }
 
+/// With the indices of the active state.
+LinearizedObservation in_active(LinearizedObservation linearization, const Slots& slots) {
+  linearization.landmark = slots.local_of(linearization.landmark);
+  if (linearization.anchor >= 0) linearization.anchor = slots.local_of(linearization.anchor);
+  if (linearization.second_anchor >= 0)
+    linearization.second_anchor = slots.local_of(linearization.second_anchor);
+  return linearization;
+}
+
+/// What left with the last submap is needed until the work for it is done.
+int take_slot(Slots& slots, PassiveSubmap& passive) {
+  if (!slots.has_freed() || (!passive.done() && slots.has_unused())) return slots.take_unused();
+  passive.finish();
+  return slots.take_freed();
+}
+
 }  // namespace
 
 CompressedState::CompressedState(int dimension, int capacity, Consistency consistency,
-                                 const Compression& compression, int threads, int error_pairs)
+                                 const Compression& compression, int threads, int bias_pairs)
     : capacity_(capacity),
       compression_{std::max(compression.submap, kSmallestSubmap),
                    std::max(compression.onset, kSmallestSubmap)},
-      active_(dimension, submap_capacity(capacity, compression_), consistency, threads, error_pairs),
+      active_(dimension, submap_capacity(capacity, compression_), consistency, threads, bias_pairs),
       since_(slots_for(capacity, compression_) > 0 ? active_.offset(active_.capacity()) : 0),
       passive_(dimension, active_.layout().head, slots_for(capacity, compression_),
                slots_for(capacity, compression_) > 0 ? active_.capacity() : 0, threads > 1),
@@ -45,14 +59,6 @@ int CompressedState::limit() const {
   return std::clamp(kSubmapPerView * recency_.max_in_view(),
                     compressing_ ? compression_.submap : std::min(compression_.onset, capacity_),
                     active_.capacity());
-}
-
-LinearizedObservation CompressedState::in_active(const LinearizedObservation& linearization) const {
-  LinearizedObservation local = linearization;
-  local.landmark = slots_.local_of(linearization.landmark);
-  if (linearization.anchor >= 0) local.anchor = slots_.local_of(linearization.anchor);
-  if (linearization.second_anchor >= 0) local.second_anchor = slots_.local_of(linearization.second_anchor);
-  return local;
 }
 
 Eigen::Vector3d CompressedState::landmark(int index) const {
@@ -73,24 +79,20 @@ Eigen::Vector3d CompressedState::linearization_landmark(int index) const {
 
 Eigen::Matrix2d CompressedState::innovation_covariance(const LinearizedObservation& linearization) const {
   return is_active(linearization.landmark)
-             ? active_.innovation_covariance(in_active(linearization))
+             ? active_.innovation_covariance(in_active(linearization, slots_))
              : recall_.innovation_covariance(slots_.slot_of(linearization.landmark), linearization);
 }
 
 Eigen::Matrix<double, 3, 2> CompressedState::pose_correlation(
     const LinearizedObservation& linearization) const {
   return is_active(linearization.landmark)
-             ? active_.pose_correlation(in_active(linearization))
+             ? active_.pose_correlation(in_active(linearization, slots_))
              : recall_.pose_correlation(slots_.slot_of(linearization.landmark), linearization);
 }
 
-LinearizedObservation CompressedState::relinearized_to_prior(
-    const LinearizedObservation& linearization) const {
-  LinearizedObservation back = active_.proposal().relinearized_to_prior(in_active(linearization));
-  back.landmark = linearization.landmark;
-  back.anchor = linearization.anchor;
-  back.second_anchor = linearization.second_anchor;
-  return back;
+Eigen::Matrix2d CompressedState::common_covariance(const LinearizedObservation& a,
+                                                   const LinearizedObservation& b) const {
+  return active_.common_covariance(in_active(a, slots_), in_active(b, slots_));
 }
 
 void CompressedState::load(const Eigen::Ref<const Eigen::VectorXd>& mean,
@@ -98,14 +100,14 @@ void CompressedState::load(const Eigen::Ref<const Eigen::VectorXd>& mean,
   assert(landmarks() == 0);
   active_.load(mean, P);
   for (int i = 0; i < active_.landmarks(); ++i) {
-    const int slot = take_slot();
+    const int slot = take_slot(slots_, passive_);
     slots_.append(slot);
     enter(slot);
   }
 }
 
-void CompressedState::predict(const Motion& motion, const ErrorTerms& errors) {
-  assert(!compressing_ || std::ranges::none_of(errors, &ErrorTerm::takes_part));
+void CompressedState::predict(const Motion& motion, const BiasTerms& errors) {
+  assert(!compressing_ || std::ranges::none_of(errors, &BiasTerm::takes_part));
   active_.predict(motion, errors);
   recency_.begin_step();
 }
@@ -130,7 +132,8 @@ bool CompressedState::propose(std::span<const LinearizedObservation> linearizati
   assert(linearizations.size() <= kMaxObservations);
   if (!std::exchange(proposed_, true)) {
     recency_.begin_update();
-    for (const LinearizedObservation& linearization : linearizations) count(linearization.landmark);
+    for (const LinearizedObservation& linearization : linearizations)
+      recency_.count(slots_.local_of(linearization.landmark));
   }
   bring_in(linearizations);
   join();
@@ -145,47 +148,32 @@ void CompressedState::accept() {
     active_.accept();
     if (compressing_) since_.absorb(active_.gain());
   }
-  work();
+  passive_.work(schedule_.share(passive_.remaining(), limit() - active_.landmarks()));
 }
 
 void CompressedState::consider(std::span<const int> landmarks) {
   recency_.begin_update();
-  for (const int landmark : landmarks) count(landmark);
-  for (const int landmark : landmarks) mark_seen(landmark);
+  for (const int landmark : landmarks) recency_.count(slots_.local_of(landmark));
+  for (const int landmark : landmarks) recency_.mark_seen(slots_.local_of(landmark));
   for (const int landmark : landmarks) activate(landmark);
 }
 
-void CompressedState::count(int landmark) {
-  is_active(landmark) ? recency_.count(slots_.local_of(landmark)) : recency_.count_another();
-}
-
-void CompressedState::mark_seen(int landmark) {
-  if (is_active(landmark)) recency_.mark_seen(slots_.local_of(landmark));
-}
-
-/// All that is sighted enters the submap, and the observations get its indices.
+/// All that is observed enters the submap, and the observations get its indices.
 void CompressedState::bring_in(std::span<const LinearizedObservation> linearizations) {
-  for (const LinearizedObservation& linearization : linearizations) mark_seen(linearization.landmark);
+  for (const LinearizedObservation& linearization : linearizations)
+    recency_.mark_seen(slots_.local_of(linearization.landmark));
   for (const LinearizedObservation& linearization : linearizations) activate(linearization.landmark);
-  local_linearizations_.assign(linearizations.begin(), linearizations.end());
-  for (LinearizedObservation& linearization : local_linearizations_) linearization = in_active(linearization);
-}
-
-/// An even share; and more if more work than room is left, halfway through the submap and later, so that none
-/// is left when it is full.
-void CompressedState::work() {
-  const double room_left =
-      std::max(limit() - active_.landmarks(), 0) / static_cast<double>(std::max(room_, 1));
-  const double due = passive_.remaining() - closing_work_ * std::min(1.0, 2.0 * room_left);
-  passive_.work(std::max(closing_work_ / kSpread, due));
+  local_linearizations_.clear();
+  for (const LinearizedObservation& linearization : linearizations)
+    local_linearizations_.push_back(in_active(linearization, slots_));
 }
 
 int CompressedState::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose,
-                         const Eigen::Matrix3d& noise, const ErrorTerms& errors) {
+                         const Eigen::Matrix3d& noise, const BiasTerms& errors) {
   assert(landmarks() < capacity_);
-  recency_.count_another();
+  recency_.count(Recency::kNoMember);
   make_room();
-  const int slot = take_slot();
+  const int slot = take_slot(slots_, passive_);
   join();
   if (compressing_) {
     passive_.clear(slot);
@@ -205,13 +193,6 @@ void CompressedState::remove(int index) {
   if (local >= 0) recency_.mark_removed(local);
   if (local >= 0 && !compressing_) leave(local);
   slots_.remove(index);
-}
-
-/// What left with the last submap is needed until the work for it is done.
-int CompressedState::take_slot() {
-  if (!slots_.has_freed() || (!passive_.done() && slots_.has_unused())) return slots_.take_unused();
-  passive_.finish();
-  return slots_.take_freed();
 }
 
 void CompressedState::enter(int slot) {
@@ -240,20 +221,17 @@ void CompressedState::activate(int index) {
   enter(slot);
 }
 
+/// A full submap is closed.
 void CompressedState::make_room() {
-  if (active_.landmarks() >= limit()) close_submap();
-}
-
-void CompressedState::close_submap() {
+  if (active_.landmarks() < limit()) return;
   join();
   passive_.finish();
   passive_.close(slots_.members(), active_, compressing_ ? &since_ : nullptr);
   let_the_others_leave();
   since_.restart(active_.size());
-  closing_work_ = passive_.remaining();
   compressing_ = true;
   recency_.begin_submap();
-  room_ = limit() - active_.landmarks();
+  schedule_ = SwitchSchedule(passive_.remaining(), limit() - active_.landmarks());
   ++closed_submaps_;
 }
 

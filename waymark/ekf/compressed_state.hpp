@@ -11,6 +11,7 @@
 #include "waymark/ekf/recency.hpp"
 #include "waymark/ekf/slots.hpp"
 #include "waymark/ekf/state.hpp"
+#include "waymark/ekf/switch_schedule.hpp"
 
 namespace waymark::ekf {
 
@@ -24,7 +25,7 @@ struct Compression {
 ///
 /// The robot and the landmarks of its submap are an ekf::State of their own, the active one. The others are
 /// left as they were when the submap was opened; what they have missed is gathered in compressed terms and
-/// worked in later, by a second thread if there is one. A landmark that is sighted again enters the submap
+/// worked in later, by a second thread if there is one. A landmark that is observed again enters the submap
 /// there and then. When the submap is full it is closed, the landmarks seen last stay for the next one, and
 /// the map is brought up to date meanwhile: a little at every update(), and in time before the next submap is
 /// full. Everything asked for is answered as if that work were done, and the result has the same bits for any
@@ -39,16 +40,16 @@ struct Compression {
 class CompressedState {
  public:
   CompressedState(int dimension, int capacity, Consistency consistency, const Compression& compression,
-                  int threads = 1, int error_pairs = 0);
+                  int threads = 1, int bias_pairs = 0);
 
-  /// Who asks for the robot, the biases or what is proposed for these asks the active state. It has
-  /// the landmarks of the submap under indices of its own.
+  /// The robot, the biases and the landmarks of the submap, these under indices of its own: whoever asks for
+  /// the robot or for biases asks this. Landmarks are asked for below, by their index in the map.
   [[nodiscard]] const State& active() const { return active_; }
   [[nodiscard]] bool is_active(int index) const { return slots_.is_active(index); }
   /// Submaps closed so far.
   [[nodiscard]] int closed_submaps() const { return closed_submaps_; }
   /// Nothing is left to do for the last of them.
-  [[nodiscard]] bool settled() const { return passive_.done(); }
+  [[nodiscard]] bool is_up_to_date() const { return passive_.done(); }
 
   [[nodiscard]] int landmarks() const { return slots_.landmarks(); }
   [[nodiscard]] int capacity() const { return capacity_; }
@@ -64,18 +65,10 @@ class CompressedState {
   [[nodiscard]] Eigen::VectorXd mean() const;
   [[nodiscard]] Eigen::MatrixXd covariance() const;
 
-  // As those of State, of landmarks in the submap: sighted or considered before.
+  // As those of State, of landmarks in the submap: observed or considered before.
   [[nodiscard]] Eigen::Matrix2d common_covariance(const LinearizedObservation& a,
-                                                  const LinearizedObservation& b) const {
-    return active_.common_covariance(in_active(a), in_active(b));
-  }
-  [[nodiscard]] Eigen::Vector3d proposed_landmark(int index) const {
-    return active_.proposal().landmark(slots_.local_of(index));
-  }
-  [[nodiscard]] Eigen::Vector2d explained(const LinearizedObservation& linearization) const {
-    return active_.proposal().explained(in_active(linearization));
-  }
-  [[nodiscard]] LinearizedObservation relinearized_to_prior(const LinearizedObservation& linearization) const;
+                                                  const LinearizedObservation& b) const;
+  [[nodiscard]] Proposal proposal() const { return active_.proposal().with_indices_of(slots_); }
 
   /// All landmarks together are the first submap: there must be that many before the onset, and no more than
   /// active().capacity().
@@ -83,7 +76,7 @@ class CompressedState {
   void place_robot(const PoseEstimate& pose) { active_.place_robot(pose); }
   void hold_landmarks() { active_.hold_landmarks(); }
   /// Motions that depend on biases are for maps that are never compressed.
-  void predict(const Motion& motion, const ErrorTerms& errors = {});
+  void predict(const Motion& motion, const BiasTerms& errors = {});
   void propagate_bias(int pair, double rho);
   /// Brings landmarks, each named once, into the submap: they may have been seen. No more than a third of it.
   void consider(std::span<const int> landmarks);
@@ -92,37 +85,20 @@ class CompressedState {
   [[nodiscard]] bool propose(std::span<const LinearizedObservation> linearizations);
   void accept();
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
-          const ErrorTerms& errors = {});
+          const BiasTerms& errors = {});
   void remove(int index);
 
-  // active(), question by question.
-  [[nodiscard]] int dimension() const { return active_.dimension(); }
-  [[nodiscard]] PoseEstimate pose() const { return active_.pose(); }
-  [[nodiscard]] Pose2 linearization_pose() const { return active_.linearization_pose(); }
-  [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const { return active_.expected(terms); }
-  [[nodiscard]] Pose2 proposed_pose() const { return active_.proposal().pose(); }
-  [[nodiscard]] Eigen::Vector2d proposed_expected(const ErrorTerms& terms) const {
-    return active_.proposal().expected(terms);
-  }
-  [[nodiscard]] int max_loaded() const { return active_.capacity(); }
-
  private:
-  [[nodiscard]] LinearizedObservation in_active(const LinearizedObservation& linearization) const;
   /// How many landmarks the submap may have.
   [[nodiscard]] int limit() const;
 
   void join();
-  void count(int landmark);
-  void mark_seen(int landmark);
   void bring_in(std::span<const LinearizedObservation> linearizations);
   void activate(int index);
   void make_room();
-  void close_submap();
   void let_the_others_leave();
-  [[nodiscard]] int take_slot();
   void enter(int slot);
   void leave(int local);
-  void work();
 
   int capacity_;
   Compression compression_;
@@ -135,8 +111,7 @@ class CompressedState {
 
   bool compressing_ = false;
   int closed_submaps_ = 0;
-  int room_ = 0;               // when the submap was opened
-  double closing_work_ = 0.0;  // flop, then
+  SwitchSchedule schedule_;
   bool proposed_ = false;
   std::vector<LinearizedObservation> local_linearizations_;
 };

@@ -54,7 +54,7 @@ void CompressedTerms::carry(const Eigen::Vector2d& displacement) {
 }
 
 void CompressedTerms::propagate_bias(int pair, double rho) {
-  double* rows = &phi_[error_offset(pair) * ld_];
+  double* rows = &phi_[bias_offset(pair) * ld_];
   for (std::size_t j = 0; j < n_; ++j) {
     rows[j] *= rho;
     rows[ld_ + j] *= rho;
@@ -62,12 +62,12 @@ void CompressedTerms::propagate_bias(int pair, double rho) {
 }
 
 /// out += row `row` of J phi(rows, :), run by run of neighbouring rows.
-void CompressedTerms::add_rows(double* out, const Touched& touched, int row) const {
-  for (std::size_t k = 0; k < touched.size();) {
+void CompressedTerms::add_rows(double* out, const SparseJacobian& jacobian, int row) const {
+  for (std::size_t k = 0; k < jacobian.size();) {
     std::size_t end = k + 1;
-    while (end < touched.size() && touched.rows[end] == touched.rows[end - 1] + 1) ++end;
-    kernels::add_scaled_rows(out, &phi_[touched.rows[k] * ld_], ld_, end - k,
-                             &touched.J(row, static_cast<Eigen::Index>(k)), n_);
+    while (end < jacobian.size() && jacobian.rows[end] == jacobian.rows[end - 1] + 1) ++end;
+    kernels::add_scaled_rows(out, &phi_[jacobian.rows[k] * ld_], ld_, end - k,
+                             &jacobian.J(row, static_cast<Eigen::Index>(k)), n_);
     k = end;
   }
 }
@@ -76,10 +76,10 @@ void CompressedTerms::project(std::span<const LinearizedObservation> linearizati
                               const StateLayout& layout) {
   double* g = G_.data();
   for (const LinearizedObservation& linearization : linearizations) {
-    const Touched touched = layout.touched(linearization, linearization.rows);
+    const SparseJacobian jacobian = layout.jacobian(linearization, linearization.rows);
     for (int r = 0; r < linearization.rows; ++r, g += ld_) {
       std::fill_n(g, n_, 0.0);
-      add_rows(g, touched, r);
+      add_rows(g, jacobian, r);
     }
   }
 }
@@ -101,12 +101,12 @@ void CompressedTerms::shear_phi(const Gain& gain) {
   turn_ += gain.turn;
 }
 
-void CompressedTerms::append_new(int dimension, const Eigen::Matrix3d& G_pose, const ErrorTerms& errors) {
+void CompressedTerms::append_new(int dimension, const Eigen::Matrix3d& G_pose, const BiasTerms& errors) {
   const std::size_t first = n_;
-  const Touched touched(G_pose.topRows(dimension), errors);
+  const SparseJacobian jacobian(G_pose.topRows(dimension), errors);
   grow(static_cast<std::size_t>(dimension));
   for (int a = 0; a < dimension; ++a)
-    add_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], touched, a);
+    add_rows(&phi_[(first + static_cast<std::size_t>(a)) * ld_], jacobian, a);
 }
 
 void CompressedTerms::append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, const Eigen::Vector3d& d) {

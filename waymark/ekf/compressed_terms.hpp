@@ -12,7 +12,7 @@
 namespace waymark::ekf {
 
 /// What a state of n values did since some moment to everything that it is correlated with (Guivant and Nebot
-/// 2001). Let B be its covariance at that moment with other values b that nothing has touched since. Then by
+/// 2001). Let B be its covariance at that moment with other values b that nothing has jacobian since. Then by
 /// now
 ///
 ///   P_ab = phi B,   P_bb = P_bb0 - B^T psi B,   x_b = x_b0 + B^T tau.
@@ -41,7 +41,7 @@ class CompressedTerms {
   void absorb(const Gain& gain);
 
   /// The state is about to add a landmark at g(pose, z, errors) with these Jacobians: State::add().
-  void append_new(int dimension, const Eigen::Matrix3d& G_pose, const ErrorTerms& errors);
+  void append_new(int dimension, const Eigen::Matrix3d& G_pose, const BiasTerms& errors);
   /// The state is about to take in a landmark b: `B` is its column of B, n x dimension, and `d` by how much
   /// its heading column was sheared.
   void append_known(const Eigen::Ref<const Eigen::MatrixXd>& B, const Eigen::Vector3d& d);
@@ -65,7 +65,7 @@ class CompressedTerms {
  private:
   using Buffer = AlignedArray<double>;
 
-  void add_rows(double* out, const Touched& touched, int row) const;
+  void add_rows(double* out, const SparseJacobian& jacobian, int row) const;
   void shear_phi(const Gain& gain);
   /// Room for `dimension` more rows and columns of zeros.
   void grow(std::size_t dimension);

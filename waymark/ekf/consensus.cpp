@@ -14,7 +14,7 @@ constexpr double kConsensus = 0.99;
 constexpr double kFar_px = 6.0;
 /// So many must lead the state far together. One is wrong easily, and a second one may agree by chance.
 constexpr std::size_t kMinReacquired = 3;
-/// Standard deviation of an innovation, px, from which on so many witnesses alone do not convince. The
+/// Standard deviation of an innovation, px, from which on so many matches alone do not convince. The
 /// ellipse then is a large part of the image, in which something that looks right is nearly always found.
 constexpr double kWide_px = 15.0;
 /// Of wrong agreements of landmarks that come back from as far: so many are expected in one image, or one
@@ -22,13 +22,13 @@ constexpr double kWide_px = 15.0;
 constexpr double kFalseAlarms = 1e-3;
 
 /// Trace of the innovation covariance of the k-th observation.
-double width_px2(const State::JointCovariance& S, std::size_t k) {
+double width_px2(const JointCovariance& S, std::size_t k) {
   const auto row = static_cast<Eigen::Index>(2 * k);
   return S(row, row) + S(row + 1, row + 1);
 }
 
 /// Of those that agree, the one whose place was known best.
-std::size_t narrowest(const State::JointCovariance& S, std::span<const char> agrees) {
+std::size_t narrowest(const JointCovariance& S, std::span<const char> agrees) {
   std::size_t best = 0;
   for (std::size_t k = 0; k < agrees.size(); ++k)
     if (agrees[k] != 0 && (agrees[best] == 0 || width_px2(S, k) < width_px2(S, best))) best = k;
@@ -47,10 +47,9 @@ Consensus::Consensus(std::size_t capacity, double gate, double area_px2)
   outcomes_.reserve(capacity);
 }
 
-/// Where the search was so wide that something that looks right is easily found, one or two matches are no
-/// evidence where search regions are wide.
-std::span<const Outcome> Consensus::judge(const State::JointCovariance& S,
-                                          std::span<const Eigen::Vector2d> nu) {
+/// One or two matches are no evidence where the search was so wide that something that looks right is easily
+/// found.
+std::span<const Outcome> Consensus::judge(const JointCovariance& S, std::span<const Eigen::Vector2d> nu) {
   const auto agrees = all_.best(S, nu, gate_, consensus_gate_);
   const auto count = static_cast<std::size_t>(std::ranges::count(agrees, char{1}));
   const std::size_t known = narrowest(S, agrees);
@@ -66,7 +65,7 @@ std::span<const Outcome> Consensus::judge(const State::JointCovariance& S,
 /// A landmark that may still be anywhere when another one is known comes back after long: it leads the state
 /// far, and needs others that come back with it. Where they may be very far, so many must agree on where
 /// that what looks right in wrong places hardly would.
-void Consensus::check_reacquired(const State::JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+void Consensus::check_reacquired(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
                                  std::span<const char> agrees, std::size_t known) {
   reacquired_.clear();
   double widest_px2 = 0.0;
@@ -84,7 +83,7 @@ void Consensus::check_reacquired(const State::JointCovariance& S, std::span<cons
 }
 
 /// Whether those that come back agree more than by chance; those of them that do not are then gated.
-bool Consensus::judge_together(const State::JointCovariance& S, std::span<const Eigen::Vector2d> nu,
+bool Consensus::judge_together(const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
                                std::size_t known) {
   const auto rest = all_.rest(S, nu, known, reacquired_);
   const auto agrees = together_.best(rest.S, rest.nu, gate_, consensus_gate_);

@@ -9,6 +9,8 @@
 
 namespace waymark::ekf {
 
+static_assert(SparseJacobian::kMaxRows <= kernels::kMaxRows);
+
 Covariance::Covariance(std::size_t size, std::size_t capacity)
     : n_(size), ld_(kernels::padded_stride(capacity)), P_(ld_ * ld_), derived_(3 * ld_) {}
 
@@ -30,13 +32,13 @@ Eigen::Vector2d Covariance::propagate_cross_covariance() {
   return std::exchange(deferred_phi_, Eigen::Vector2d::Zero());
 }
 
-void Covariance::project(const Touched& J, double* out, std::size_t ld) const {
+void Covariance::project(const SparseJacobian& J, double* out, std::size_t ld) const {
   assert(!deferred_);
   kernels::project_rows(P_.data(), ld_, n_, J.rows.data(), J.size(), J.J.data(),
                         static_cast<std::size_t>(J.J.rows()), out, ld);
 }
 
-NewRows Covariance::derive(const Touched& J, const Eigen::Matrix3d& noise) {
+NewRows Covariance::derive(const SparseJacobian& J, const Eigen::Matrix3d& noise) {
   project(J, derived_.data(), ld_);
   const auto count = static_cast<int>(J.J.rows());
   NewRows derived{count, derived_.data(), ld_, noise};

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"
-#include "waymark/ekf/touched.hpp"
+#include "waymark/ekf/sparse_jacobian.hpp"
 
 namespace waymark::ekf {
 
@@ -54,10 +54,10 @@ class Covariance {
   // From here on nothing may be due.
 
   /// out = J P, as many rows as J has, `ld` apart. O(n).
-  void project(const Touched& J, double* out, std::size_t ld) const;
+  void project(const SparseJacobian& J, double* out, std::size_t ld) const;
   /// y = J x + v, with v of covariance `noise` and independent of x. The view is good until the next call.
   /// O(n).
-  [[nodiscard]] NewRows derive(const Touched& J, const Eigen::Matrix3d& noise);
+  [[nodiscard]] NewRows derive(const SparseJacobian& J, const Eigen::Matrix3d& noise);
   void append(const NewRows& rows);
   /// y takes the place of the values from `at` on.
   void replace(std::size_t at, const NewRows& rows);

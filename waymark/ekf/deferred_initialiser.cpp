@@ -180,11 +180,11 @@ std::optional<LinearizedViews> DeferredInitialiser::views_at(const Unlocated& un
   for (Eigen::Index i = 0; i < m; ++i) {
     auto linearization = linearize_partial(unlocated.views[static_cast<std::size_t>(i)], p_world, here, at);
     if (!linearization) return std::nullopt;
-    views.nu[i] = linearization->nu[0] - state.expected(linearization->errors)[0];
+    views.nu[i] = linearization->nu[0] - state.active().expected(linearization->errors)[0];
     views.H.row(i) = linearization->H_landmark.block<1, 2>(0, 0);
     linearization->H_pose.leftCols<2>() = linearization->H_landmark.leftCols<2>();
     linearization->H_pose.col(2) = linearization->H_landmark.leftCols<2>() *
-                                   perpendicular(p_world - state.linearization_pose().position());
+                                   perpendicular(p_world - state.active().linearization_pose().position());
     linearization->landmark =
         std::exchange(linearization->anchor, std::exchange(linearization->second_anchor, -1));
     linearization->H_landmark = linearization->H_anchor;
@@ -198,7 +198,7 @@ std::optional<LinearizedViews> DeferredInitialiser::views_at(const Unlocated& un
   return views;
 }
 
-/// All points that the views hang on are to be in the region of a compressed map.
+/// All points that the views hang on are to be in the submap of a compressed map.
 void DeferredInitialiser::consider_views(const Unlocated& unlocated, int landmark) {
   std::vector<int> points;
   if (landmark >= 0) points.push_back(landmark);
@@ -259,16 +259,17 @@ bool DeferredInitialiser::gather_views(const Unlocated& unlocated, int landmark,
   const CompressedState& state = map_.state();
   const auto now = [&state](int i) { return state.landmark(i); };
   const auto first = [&state](int i) { return state.linearization_landmark(i); };
-  const auto there = [&state](int i) { return state.proposed_landmark(i); };
+  const Proposal proposal = state.proposal();
+  const auto there = [&proposal](int i) { return proposal.landmark(i); };
   block_.clear();
   for (const PartialView& view : unlocated.views) {
     auto linearization = at_proposal ? linearize_partial(view, there(landmark).head<2>(), there, there)
                                      : linearize_partial(view, now(landmark).head<2>(), now, first);
     if (!linearization) return false;
     linearization->landmark = landmark;
-    linearization->nu -=
-        at_proposal ? state.proposed_expected(linearization->errors) : state.expected(linearization->errors);
-    block_.push_back(at_proposal ? state.relinearized_to_prior(*linearization) : *linearization);
+    linearization->nu -= at_proposal ? proposal.expected(linearization->errors)
+                                     : state.active().expected(linearization->errors);
+    block_.push_back(at_proposal ? proposal.relinearized_to_prior(*linearization) : *linearization);
   }
   return true;
 }

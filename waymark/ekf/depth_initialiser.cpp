@@ -16,11 +16,12 @@ namespace {
 /// What particles claim of a depth is made so many times less sure where the state learns it anew: wide
 /// enough that the two pixels it learns from decide, not the particles, which weigh with 1/25 then.
 constexpr double kDepthInflation = 5.0;
+/// Standard deviation of the depth over the depth from which on it is known.
+constexpr double kDepthRatio = 0.3;
 
-/// Inverse depth of something that was seen once: two standard deviations span all that it may be.
-DepthParticles::Spread unknown_depth(const DepthPrior& prior) {
-  const double nearest = 1.0 / prior.nearest_m, farthest = 1.0 / prior.farthest_m;
-  return {0.5 * (nearest + farthest), 0.25 * (nearest - farthest)};
+/// Of the inverse depth of something that was seen once: two standard deviations span all that it may be.
+double unknown_rho_sigma(const DepthPrior& prior) {
+  return 0.25 * (1.0 / prior.nearest_m - 1.0 / prior.farthest_m);
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ DepthInitialiser::DepthInitialiser(const PixelSlamOptions& options, BoundedMap& 
     : options_(options),
       map_(map),
       prediction_(prediction),
-      gate_(chi2_quantile(options.gate_probability, 2)),
+      gate_(chi2_quantile(kPixelGateProbability, 2)),
       candidates_(static_cast<std::size_t>(options.max_candidates),
                   Candidate{.depths = DepthParticles(options.depth)}) {
   expectations_.reserve(candidates_.size());
@@ -42,7 +43,7 @@ void DepthInitialiser::begin_image() {
   for (Candidate& candidate : candidates_) {
     if (candidate.is_free()) continue;
     const bool fails = candidate.looks >= 10 && 2 * candidate.matches < candidate.looks;
-    if (++candidate.images > 2 * options_.max_images || fails) give_up(candidate);
+    if (++candidate.images > 2 * kMaxImages || fails) give_up(candidate);
   }
 }
 
@@ -97,8 +98,8 @@ bool DepthInitialiser::is_ready(LandmarkId id) const {
   const Candidate& candidate = candidates_[find(id)];
   const auto [mean, sigma] = candidate.depths.depth();
   const bool patient = options_.init == Initialization::kArticle;
-  const bool known = sigma < options_.depth_ratio * mean;
-  return candidate.matches >= (known ? options_.min_images : options_.max_images) && (known || !patient);
+  const bool known = sigma < kDepthRatio * mean;
+  return candidate.matches >= (known ? kMinImages : kMaxImages) && (known || !patient);
 }
 
 std::optional<int> DepthInitialiser::accept(LandmarkId id) {
@@ -111,11 +112,11 @@ std::optional<int> DepthInitialiser::accept(LandmarkId id) {
   const auto [rho, sigma] = candidate.depths.inverse_depth();
   const bool as_point = options_.init == Initialization::kArticle;
   const double unsure =
-      as_point ? sigma : std::min(kDepthInflation * sigma, unknown_depth(options_.depth).sigma);
+      as_point ? sigma : std::min(kDepthInflation * sigma, unknown_rho_sigma(options_.depth));
   const int anchor = std::exchange(candidate.anchor, -1);
   const int feature =  // Vincke Algorithm 1
       map_.add_ray(candidate.id, anchor, candidate.ray(rho), ray_covariance(candidate.xy_covariance, unsure),
-                   {}, candidate.matches + 1);
+                   candidate.matches + 1);
   prediction_.add_process_noise(map, feature, prediction_.place(map, feature), prediction_.camera_pose(map));
   if (as_point) map.make_point(feature, prediction_.camera());
   map.release(anchor);
@@ -124,34 +125,24 @@ std::optional<int> DepthInitialiser::accept(LandmarkId id) {
 
 Outcome DepthInitialiser::begin(LandmarkId id, const Eigen::Vector2d& z_px, const Eigen::Matrix2d& R) {
   const auto ray = prediction_.camera().ray(z_px);
-  const bool at_once = options_.init == Initialization::kInverseDepth;
   const auto slot = std::ranges::find_if(candidates_, &Candidate::is_free);
-  if (!ray || (!at_once && slot == candidates_.end())) return Outcome::kMapFull;
+  if (!ray || slot == candidates_.end()) return Outcome::kMapFull;
   if (!anchor_ && !map_.free_an_anchor()) return Outcome::kMapFull;
-  if (at_once && !map_.make_room()) return Outcome::kMapFull;
   if (!anchor_) anchor_ = map_.map().add_anchor();
   const Eigen::Matrix2d xy_covariance = ray->dxy_dpixel * R * ray->dxy_dpixel.transpose();
-  const ErrorTerms jittered = jittered_ray(*ray);
-  if (at_once) {
-    const auto [rho, sigma] = unknown_depth(options_.depth);
-    map_.add_ray(id, *anchor_, {ray->xy.x(), ray->xy.y(), rho}, ray_covariance(xy_covariance, sigma),
-                 jittered, 1);
-    return Outcome::kAdded;
-  }
-  const Eigen::Matrix2d J = jittered[0].J.topRows<2>();
+  const Eigen::Matrix2d J = jitter_of(*ray);
   map_.map().hold(*anchor_);
   slot->start(id, *anchor_, ray->xy, xy_covariance + J * J.transpose());
   return Outcome::kAdded;
 }
 
 /// What an attitude jitter of the camera does to the (x, y) of the ray that is seen at a pixel.
-ErrorTerms DepthInitialiser::jittered_ray(const PixelRay& ray) const {
+Eigen::Matrix2d DepthInitialiser::jitter_of(const PixelRay& ray) const {
   const Eigen::Vector3d direction = ray.xy.homogeneous();
-  ErrorTerms jittered;
-  if (const auto image = prediction_.camera().project(direction))
-    jittered = prediction_.noise().attitude_jitter(direction, image->dpixel_dpoint);
-  jittered[0].J.topRows<2>() = (-ray.dxy_dpixel * jittered[0].J.topRows<2>()).eval();
-  return jittered;
+  const auto image = prediction_.camera().project(direction);
+  if (!image) return Eigen::Matrix2d::Zero();
+  const BiasTerms jittered = prediction_.noise().attitude_jitter(direction, image->dpixel_dpoint);
+  return -ray.dxy_dpixel * jittered[0].J.topRows<2>();
 }
 
 void DepthInitialiser::give_up(Candidate& candidate) {

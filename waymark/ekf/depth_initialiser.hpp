@@ -23,6 +23,10 @@ namespace waymark::ekf {
 /// once.
 class DepthInitialiser {
  public:
+  /// Images in which a candidate is found before it becomes a landmark; with unknown depth.
+  static constexpr int kMinImages = 8;
+  static constexpr int kMaxImages = 15;
+
   /// The map and the prediction must outlive it.
   DepthInitialiser(const PixelSlamOptions& options, BoundedMap& map, const PixelPrediction& prediction);
 
@@ -41,8 +45,8 @@ class DepthInitialiser {
   /// A candidate was found in a pixel of noise R, px^2: weighs its depths with it. False, and the depths stay
   /// what they were, where it is outside of the gate of all of them. O(particles).
   [[nodiscard]] bool weigh(LandmarkId id, const Eigen::Vector2d& z_px, const Eigen::Matrix2d& R);
-  /// Whether a candidate is to become a landmark: its depth is known to PixelSlamOptions::depth_ratio, or is
-  /// taking too long to show.
+  /// Whether a candidate is to become a landmark: its depth is known well enough, or is taking too long to
+  /// show.
   [[nodiscard]] bool is_ready(LandmarkId id) const;
   /// A candidate becomes a landmark, whose index in the map this is; nothing, and it is given up, where the
   /// map has no room. O(n) for a state of n values.
@@ -54,14 +58,14 @@ class DepthInitialiser {
   /// and of the first one. The particles say where to linearise.
   [[nodiscard]] std::optional<int> accept(LandmarkId id);
 
-  /// Something new was seen in a pixel of noise R, px^2: kAdded as a candidate (or at once as a ray, with
-  /// Initialization::kInverseDepth), or kMapFull where there is no room.
+  /// Something new was seen in a pixel of noise R, px^2: kAdded as a candidate, or kMapFull where there
+  /// is no room.
   [[nodiscard]] Outcome begin(LandmarkId id, const Eigen::Vector2d& z_px, const Eigen::Matrix2d& R);
 
  private:
   [[nodiscard]] std::size_t find(LandmarkId id) const;
   void give_up(Candidate& candidate);
-  [[nodiscard]] ErrorTerms jittered_ray(const PixelRay& ray) const;
+  [[nodiscard]] Eigen::Matrix2d jitter_of(const PixelRay& ray) const;
 
   PixelSlamOptions options_;
   BoundedMap& map_;

@@ -30,7 +30,7 @@ double farthest_twin_m(const AssociationModel& model) {
 /// That two landmarks are one, as an observation: seen from the robot their difference is zero. (Seen in the
 /// world the same constraint would tell the filter its heading.)
 LinearizedObservation twin_difference(const CompressedState& state, int landmark, int twin) {
-  const Eigen::Matrix2d to_robot = rotation_matrix(-state.linearization_pose().theta_rad);
+  const Eigen::Matrix2d to_robot = rotation_matrix(-state.active().linearization_pose().theta_rad);
   const Eigen::Vector2d apart =
       (state.linearization_landmark(landmark) - state.linearization_landmark(twin)).head<2>();
   LinearizedObservation difference;

@@ -18,7 +18,7 @@ struct Duplicate {
 /// The likeliest pair of a landmark that was observed in this scan and one beside it that was not. That they
 /// are one is likely by log N(p - p'; 0, S) over the density of landmarks side by side (docs/association.md,
 /// "Merging"); two that are certain never are. `gate` is the chi-square threshold for two degrees of freedom,
-/// `nearby` of the present estimate. O(1) per pair within reach, which enters the region of a compressed map.
+/// `nearby` of the present estimate. O(1) per pair within reach, which enters the submap of a compressed map.
 [[nodiscard]] std::optional<Duplicate> find_duplicate(PointMap& map, const NearbyLandmarks& nearby,
                                                       const AssociationModel& model, double gate);
 

@@ -5,7 +5,6 @@
 #include "waymark/association/association_options.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/ekf/consistency.hpp"
-#include "waymark/ekf/eviction.hpp"
 #include "waymark/ekf/odometry_state_options.hpp"
 
 namespace waymark {
@@ -33,7 +32,6 @@ enum class Compress { kAuto, kAlways, kNever };
 struct EkfOptions {
   ekf::Consistency consistency = ekf::Consistency::kInvariant;
   int capacity = 1000;
-  ekf::Eviction evict = ekf::Eviction::kInformation;
   Compress compressed = Compress::kAuto;
   int iterations = 0;  ///< how often an update may be linearised anew where it leaves the linear
   ekf::Likelihood likelihood = ekf::Likelihood::kGaussian;

@@ -82,7 +82,7 @@ const Correction& EkfSlam::correct(std::span<const Observation> given) {
   timer.finish(EkfBlock::kEstimate);
   // Manage the map, and initialise new landmarks in the corrected state.
   if (unknown_) {
-    settle_unknown(observations);
+    classify_unmatched(observations);
     judge_landmarks();
   }
   for (std::size_t i = 0; i < observations.size(); ++i) {
@@ -139,7 +139,7 @@ void EkfSlam::associate(std::size_t index, const Observation& observation) {
   gate(innovation, linearize(index, observation));
 }
 
-/// Those without identity: each is of a landmark that is not claimed yet, or left for settle_unknown().
+/// Those without identity: each is of a landmark that is not claimed yet, or left for classify_unmatched().
 void EkfSlam::associate_unknown(std::span<const Observation> observations) {
   unknown_->nearby.refresh(map_, observation_.T_world_sensor().position());
   for (const auto& match : unknown_->matcher.match(observations, innovations_, unknown_->nearby)) {
@@ -170,16 +170,15 @@ void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedOb
   innovation.gate = gate_.threshold(linearization->rows);
   innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
   ekf::MapManagement& management = map_.management();
-  if (!management.evicts()) return;
   if (innovation.outcome == Outcome::kMatched)
-    management.matched(
-        linearization->landmark,
-        {state().pose().covariance, state().pose_correlation(*linearization), S, linearization->H_pose});
+    management.matched(linearization->landmark,
+                       {state().active().pose().covariance, state().pose_correlation(*linearization), S,
+                        linearization->H_pose});
   else
     management.missed(linearization->landmark);
 }
 
-/// Makes the pose less sure by a slip, and gates again what was refused.
+/// Inflates the pose covariance by a motion, and gates again what was refused.
 void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation> observations) {
   map_.state().predict(added_motion);
   for (std::size_t i = 0; i < observations.size(); ++i)
@@ -198,7 +197,7 @@ void EkfSlam::isolate_faults(std::span<const Observation> observations) {
                       [this](int a, int b) { return map_.apart(a, b); });
   faults_.review(observations, innovations_, map_.table());
   if (!faults_.wants_relocation()) return;
-  if (const auto motion = faults_.find_motion(map_.save(), state().pose().T_world_robot)) {
+  if (const auto motion = faults_.find_motion(map_.save(), state().active().pose().T_world_robot)) {
     gate_again(*motion, observations);
     faults_.relocated();
   }
@@ -247,7 +246,7 @@ void EkfSlam::collect(std::size_t index, const Observation& observation) {
 }
 
 /// What fits no landmark now that the others have corrected the state begins one.
-void EkfSlam::settle_unknown(std::span<const Observation> observations) {
+void EkfSlam::classify_unmatched(std::span<const Observation> observations) {
   unknown_->nearby.refresh(map_, observation_.T_world_sensor().position());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (innovations_[i].outcome != Outcome::kUnidentified) continue;

@@ -60,7 +60,7 @@ class EkfSlam final : public Filter {
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
-  [[nodiscard]] PoseEstimate pose() const override { return state().pose(); }
+  [[nodiscard]] PoseEstimate pose() const override { return state().active().pose(); }
   [[nodiscard]] Snapshot snapshot() const override { return map_.snapshot(); }
   [[nodiscard]] MapState save() const override { return map_.save(); }
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
@@ -93,7 +93,7 @@ class EkfSlam final : public Filter {
   void isolate_faults(std::span<const Observation> observations);
   void update(std::span<const Observation> observations);
   void collect(std::size_t index, const Observation& observation);
-  void settle_unknown(std::span<const Observation> observations);
+  void classify_unmatched(std::span<const Observation> observations);
   void judge_landmarks();
   void begin_anew_where_wrong(std::size_t index);
   void add(std::size_t index, const Observation& observation);

@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 #include "waymark/ekf/ekf_options.hpp"
-#include "waymark/ekf/negligible_change.hpp"
 #include "waymark/ekf/state.hpp"
 
 namespace waymark::ekf {
@@ -21,6 +20,9 @@ namespace waymark::ekf {
 /// Little, Taylor 1989). docs/ekf.md, "Large innovations", derives it.
 class IteratedUpdate {
  public:
+  /// Squared and in units of the noise: a fifth of its standard deviation.
+  static constexpr double kNegligibleChange = 0.04;
+
   /// At most `iterations` steps after the first one, with heavy tails no less than three; none with kFej,
   /// where first estimates stay what they are.
   IteratedUpdate(int iterations, Likelihood likelihood, Consistency consistency);
@@ -51,6 +53,7 @@ class IteratedUpdate {
   template <class FilterState, class Linearize>
   [[nodiscard]] bool relinearize(const FilterState& state, std::span<const LinearizedObservation> block,
                                  std::span<const LinearizedObservation> last, const Linearize& linearize) {
+    const Proposal proposal = state.proposal();
     there_.clear();
     double change = 0.0;
     for (std::size_t k = 0; k < block.size(); ++k) {
@@ -58,7 +61,7 @@ class IteratedUpdate {
       const Eigen::Matrix2d& R = block[k].R;
       auto there = linearize(k, before);
       if (!there) return false;
-      const Eigen::Vector2d bent = there->nu - (before.nu - state.explained(before));
+      const Eigen::Vector2d bent = there->nu - (before.nu - proposal.explained(before));
       there->R = student_t_weight(*there, R) * R;
       change = std::max(
           {change, bent.dot(R.llt().solve(bent)), std::abs(std::log(there->R(0, 0) / before.R(0, 0)))});
@@ -66,7 +69,8 @@ class IteratedUpdate {
     }
     if (change < kNegligibleChange) return false;
     refined_.clear();
-    for (const LinearizedObservation& there : there_) refined_.push_back(state.relinearized_to_prior(there));
+    for (const LinearizedObservation& there : there_)
+      refined_.push_back(proposal.relinearized_to_prior(there));
     return true;
   }
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "waymark/ekf/touched.hpp"
+#include "waymark/ekf/sparse_jacobian.hpp"
 
 namespace waymark::ekf {
 
@@ -21,7 +21,7 @@ struct LinearizedObservation {
   Eigen::Matrix<double, 2, 3> H_anchor = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix<double, 2, 3> H_second_anchor = Eigen::Matrix<double, 2, 3>::Zero();
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
-  ErrorTerms errors = {};
+  BiasTerms errors = {};
 };
 
 }  // namespace waymark::ekf

@@ -89,7 +89,7 @@ const Correction& Localizer::search_pose(std::span<const Observation> observatio
     if (observation.id || unknown_) remember(observation);
   if (local_map_.landmarks().size() < 2) return searching_;
   const PoseCandidates found = find_pose(local_map_.landmarks(), map_);
-  if (is_enough(found)) return settle(found.best);
+  if (is_enough(found)) return localize_at(found.best);
   if (is_elsewhere(found)) refusal_ = Error{reason(found)};
   return searching_;
 }
@@ -140,7 +140,7 @@ std::string Localizer::reason(const PoseCandidates& found) const {
                 " are arranged as in the map; the map is of another place");
 }
 
-const Correction& Localizer::settle(const PoseCandidate& found) {
+const Correction& Localizer::localize_at(const PoseCandidate& found) {
   located_ = true;
   ekf_.place_robot({found.T_world_robot, kAsGoodAsUnknown.cwiseAbs2().asDiagonal()});
   std::vector<Observation> agreeing;

@@ -49,7 +49,7 @@ class Localizer final : public Filter {
   [[nodiscard]] std::string reason(const PoseCandidates& found) const;
   [[nodiscard]] int seen_of_map() const;
   const Correction& search_pose(std::span<const Observation> observations);
-  const Correction& settle(const PoseCandidate& found);
+  const Correction& localize_at(const PoseCandidate& found);
   void judge(const Correction& correction);
 
   MapState map_;

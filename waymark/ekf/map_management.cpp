@@ -15,33 +15,24 @@ constexpr double kNewest = 0.2;
 
 // By the determinant lemma |P - C S^-1 C^T| / |P| = |S - C^T P^-1 C| / |S|: what is left of S when the pose
 // is known.
-double information_gain(const PoseObservation& linearization) {
-  const Eigen::Matrix3d P = linearization.P_pose + 1e-12 * Eigen::Matrix3d::Identity();
+double information_gain(const PoseObservation& observation) {
+  const Eigen::Matrix3d P = observation.P_pose + 1e-12 * Eigen::Matrix3d::Identity();
   const Eigen::Matrix2d given_pose =
-      linearization.S - linearization.C_pose.transpose() * P.inverse() * linearization.C_pose;
-  const double ratio = linearization.S.determinant() / given_pose.determinant();
+      observation.S - observation.C_pose.transpose() * P.inverse() * observation.C_pose;
+  const double ratio = observation.S.determinant() / given_pose.determinant();
   return ratio > 1.0 && std::isfinite(ratio) ? 0.5 * std::log(ratio) : 0.0;
 }
 
-double article_score(const PoseObservation& linearization) {
-  const Eigen::Matrix<double, 3, 2> K_pose = linearization.C_pose * linearization.S.inverse();  // Vincke (12)
-  return 3.0 - (K_pose * linearization.H_pose).trace();
-}
-
-MapManagement::MapManagement(Eviction eviction, int capacity) : eviction_(eviction) {
-  records_.reserve(static_cast<std::size_t>(capacity));
-}
+MapManagement::MapManagement(int capacity) { records_.reserve(static_cast<std::size_t>(capacity)); }
 
 void MapManagement::added(bool pinned) { records_.push_back({.scan = scan_, .pinned = pinned}); }
 
-void MapManagement::matched(int landmark, const PoseObservation& linearization) {
+void MapManagement::matched(int landmark, const PoseObservation& observation) {
   Record& record = records_[static_cast<std::size_t>(landmark)];
   ++record.observations;
   ++record.matches;
   record.scan = scan_;
-  if (eviction_ == Eviction::kArticle) record.gain = 3.0 - article_score(linearization);
-  if (eviction_ != Eviction::kInformation) return;
-  const double gain = information_gain(linearization);
+  const double gain = information_gain(observation);
   record.gain += (record.matches == 1 ? 1.0 : kNewest) * (gain - record.gain);
 }
 
@@ -58,8 +49,8 @@ bool MapManagement::keeps_failing(int landmark) const {
   return record.observations >= kMinAttempts && 2 * record.matches < record.observations;
 }
 
-double MapManagement::usefulness(const Record& record) const {
-  if (eviction_ == Eviction::kArticle || record.observations == 0) return record.gain;
+double MapManagement::usefulness(const Record& record) {
+  if (record.observations == 0) return record.gain;
   return record.gain * record.matches / record.observations;
 }
 

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "waymark/ekf/eviction.hpp"
-
 namespace waymark::ekf {
 
 /// One observation against the robot's pose, all before the update: P_pose its covariance, C_pose = P(pose,
@@ -21,26 +19,21 @@ struct PoseObservation {
 
 /// What the observation tells about the pose: 1/2 log(|P| / |P - C S^-1 C^T|) nats, never negative, the same
 /// in all units. 1e-12 I is added to P, which is singular at a known start. 0 if S is not positive definite.
-[[nodiscard]] double information_gain(const PoseObservation& linearization);
+[[nodiscard]] double information_gain(const PoseObservation& observation);
 
-/// Trace of the robot block of I - K H (Vincke et al. 2012 after Auat Cheein and Carelli 2011): 3 for an
-/// observation that tells nothing. It adds metres to radians, and is kept for comparison.
-[[nodiscard]] double article_score(const PoseObservation& linearization);
-
-/// Remembers how useful the landmarks have been, by their index in the state. Landmarks of the present scan
-/// are never evicted. Nothing but added() beyond the capacity allocates.
+/// Remembers how much information about the pose the landmarks have given, by their index in the state, so
+/// that the least informative one can make room for a new one. Landmarks of the present scan are never
+/// evicted. Nothing but added() beyond the capacity allocates.
 class MapManagement {
  public:
-  MapManagement(Eviction eviction, int capacity);
-
-  [[nodiscard]] bool evicts() const { return eviction_ != Eviction::kNone; }
+  explicit MapManagement(int capacity);
 
   void begin_scan() { ++scan_; }
   /// A landmark was appended; a pinned one is never evicted.
   void added(bool pinned = false);
-  /// The landmark was sighted where it was expected.
-  void matched(int landmark, const PoseObservation& linearization);
-  /// The landmark was sighted, but outside its gate.
+  /// The landmark was observed where it was expected.
+  void matched(int landmark, const PoseObservation& observation);
+  /// The landmark was observed, but outside its gate.
   void missed(int landmark);
   /// The landmark was removed and the last one took its index.
   void removed(int landmark);
@@ -68,9 +61,8 @@ class MapManagement {
   [[nodiscard]] const Record& record(int landmark) const {
     return records_[static_cast<std::size_t>(landmark)];
   }
-  [[nodiscard]] double usefulness(const Record& record) const;
+  [[nodiscard]] static double usefulness(const Record& record);
 
-  Eviction eviction_;
   std::int64_t scan_ = 0;
   std::vector<Record> records_;
 };

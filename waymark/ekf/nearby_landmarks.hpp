@@ -17,7 +17,7 @@ class NearbyLandmarks {
  public:
   explicit NearbyLandmarks(double sensor_range_m);
 
-  /// Takes in where the landmarks are now. Where one outside of the region of a compressed map is takes a
+  /// Takes in where the landmarks are now. Where one outside of the submap of a compressed map is takes a
   /// while to find out: those out of the sensor's reach are asked every 16th scan. O(n).
   void refresh(PointMap& map, const Eigen::Vector2d& p_world_sensor);
 

@@ -13,7 +13,7 @@ namespace waymark::ekf {
 namespace {
 
 /// S_ij from the lower triangle.
-Eigen::Matrix2d block(const OnePointRansac::JointCovariance& S, std::size_t i, std::size_t j) {
+Eigen::Matrix2d block(const JointCovariance& S, std::size_t i, std::size_t j) {
   const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(2 * k); };
   if (i > j) return S.block<2, 2>(at(i), at(j));
   if (i < j) return S.block<2, 2>(at(j), at(i)).transpose();

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "waymark/ekf/state.hpp"
+#include "waymark/ekf/update.hpp"
 
 namespace waymark::ekf {
 
@@ -20,16 +20,12 @@ namespace waymark::ekf {
 /// Zisserman 2000): a wrong place that others share must still be paid for.
 class OnePointRansac {
  public:
-  using JointCovariance = State::JointCovariance;
-
   /// Room for so many observations.
   explicit OnePointRansac(std::size_t capacity)
       : best_(capacity), tried_(capacity), rest_covariance_(2 * capacity, 2 * capacity) {
     rest_nu_.reserve(capacity);
   }
 
-  /// Index of the observation with which the others were compared, after best() found one.
-  [[nodiscard]] std::size_t hypothesis() const { return hypothesis_; }
   /// What is left of S_jj where observation i is known: how far it may still lead the state.
   [[nodiscard]] static Eigen::Matrix2d left_of(const JointCovariance& S, std::size_t j, std::size_t i);
 
@@ -57,7 +53,7 @@ class OnePointRansac {
   double cost_with(std::size_t i, const JointCovariance& S, std::span<const Eigen::Vector2d> nu,
                    double own_gate, double gate);
 
-  std::size_t hypothesis_ = 0;
+  std::size_t hypothesis_ = 0;  // with which the others were compared, after best() found one
   std::vector<char> best_;
   std::vector<char> tried_;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rest_covariance_;

@@ -12,7 +12,8 @@
 namespace waymark::ekf {
 namespace {
 
-/// Columns settled at once: one tile of the widest vectors, and whole landmarks of two or three coordinates.
+/// Columns brought up to date at once: one tile of the widest vectors, and whole landmarks of two or three
+/// coordinates.
 constexpr std::size_t kColumns = 24;
 /// Rows of P_bb brought up to date at once.
 constexpr std::size_t kRows = 8;
@@ -36,7 +37,7 @@ PassiveSubmap::PassiveSubmap(int dimension, std::size_t head, int slots, int mem
       minus_psi_(submap_ld_ * submap_ld_),
       tau_(submap_ld_),
       heading_(submap_ld_),
-      settled_(ld_ / kColumns + 1),
+      updated_(ld_ / kColumns + 1),
       B_(submap_ld_ * ld_),
       psi_b_(submap_ld_ * ld_),
       phi_b_(submap_ld_ * kColumns),
@@ -102,7 +103,7 @@ void PassiveSubmap::take_over(const CompressedTerms& since, const Belief& submap
   n_ = size();
   std::ranges::fill(inside_, 0);
   for (const std::size_t row : rows_) inside_[row] = 1;
-  std::ranges::fill(settled_, 0);
+  std::ranges::fill(updated_, 0);
   next_block_ = next_row_ = 0;
   credit_ = 0.0;
   working_ = true;
@@ -112,7 +113,7 @@ void PassiveSubmap::take_over(const CompressedTerms& since, const Belief& submap
 double PassiveSubmap::next_cost() const {
   const auto na = static_cast<double>(rows_.size());
   if (next_block_ * kColumns < n_)
-    return settled_[next_block_] ? 0.0 : 4.0 * na * na * static_cast<double>(kColumns);
+    return updated_[next_block_] ? 0.0 : 4.0 * na * na * static_cast<double>(kColumns);
   return 2.0 * na * static_cast<double>(kRows * (n_ - next_row_));
 }
 
@@ -130,7 +131,7 @@ double PassiveSubmap::remaining() {
 }
 
 void PassiveSubmap::do_next() {
-  if (next_block_ * kColumns < n_) return settle(next_block_++);
+  if (next_block_ * kColumns < n_) return update_columns(next_block_++);
   const std::size_t end = std::min(next_row_ + kRows, n_);
   kernels::symmetric_product_update(P_.data(), ld_, n_, B_.data(), psi_b_.data(), ld_, rows_.size(),
                                     retraction_.turns() ? d_.data() : nullptr,
@@ -157,14 +158,14 @@ void PassiveSubmap::finish() {
   while (working_) do_next();
 }
 
-void PassiveSubmap::settle_slot(int slot) {
-  if (working_ && offset(slot) < n_) settle(offset(slot) / kColumns);
+void PassiveSubmap::update_columns_of(int slot) {
+  if (working_ && offset(slot) < n_) update_columns(offset(slot) / kColumns);
 }
 
 /// Phase one for one block of columns.
-void PassiveSubmap::settle(std::size_t block) {
-  if (settled_[block]) return;
-  settled_[block] = 1;
+void PassiveSubmap::update_columns(std::size_t block) {
+  if (updated_[block]) return;
+  updated_[block] = 1;
   const std::size_t begin = block * kColumns;
   const std::size_t end = std::min(begin + kColumns, n_);
   const std::size_t na = rows_.size();
@@ -207,7 +208,7 @@ void PassiveSubmap::write_back(std::size_t begin, std::size_t end) {
         P(rows_[k], j) = phi_b_[k * kColumns + j - begin] + (retraction_.turns() ? heading_[k] * d_[j] : 0.0);
 }
 
-/// P(i, j) as it will be when the work is done; both columns are settled.
+/// P(i, j) as it will be when the work is done; both columns are up to date.
 double PassiveSubmap::present(std::size_t i, std::size_t j) {
   const auto [row, column] = std::minmax(i, j);
   double p = P(row, column);
@@ -218,13 +219,13 @@ double PassiveSubmap::present(std::size_t i, std::size_t j) {
 
 Eigen::Vector3d PassiveSubmap::position(int slot) {
   background_.wait();
-  settle_slot(slot);
+  update_columns_of(slot);
   return point(x_, slot);
 }
 
 Eigen::Matrix3d PassiveSubmap::covariance(int slot) {
   background_.wait();
-  settle_slot(slot);
+  update_columns_of(slot);
   Eigen::Matrix3d P_slot = Eigen::Matrix3d::Zero();
   for (int a = 0; a < dimension_; ++a)
     for (int b = 0; b < dimension_; ++b)
@@ -235,8 +236,8 @@ Eigen::Matrix3d PassiveSubmap::covariance(int slot) {
 
 void PassiveSubmap::columns(int slot, std::span<const int> members, Eigen::Ref<Eigen::MatrixXd> out) {
   background_.wait();
-  settle_slot(slot);
-  for (const int member : members) settle_slot(member);
+  update_columns_of(slot);
+  for (const int member : members) update_columns_of(member);
   list_rows(members, asked_);
   for (int a = 0; a < dimension_; ++a)
     for (std::size_t k = 0; k < asked_.size(); ++k)

@@ -81,8 +81,8 @@ class PassiveSubmap {
   void spend_credit();
   [[nodiscard]] double next_cost() const;
   void do_next();
-  void settle_slot(int slot);
-  void settle(std::size_t block);
+  void update_columns_of(int slot);
+  void update_columns(std::size_t block);
   void move_points(std::size_t begin, std::size_t end);
   void write_back(std::size_t begin, std::size_t end);
 
@@ -109,7 +109,7 @@ class PassiveSubmap {
   Buffer heading_;  // P_a,theta
   Retraction retraction_{Consistency::kStandard, 0.0};
 
-  std::vector<char> settled_;  // by block of columns
+  std::vector<char> updated_;  // by block of columns
   std::size_t next_block_ = 0;
   std::size_t next_row_ = 0;
   Buffer B_;  // submap x n; zero in the submap's own columns

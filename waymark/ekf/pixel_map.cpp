@@ -5,9 +5,9 @@
 
 namespace waymark::ekf {
 
-PixelMap::PixelMap(int capacity, int anchors, Consistency consistency, int threads, int error_pairs)
+PixelMap::PixelMap(int capacity, int anchors, Consistency consistency, int threads, int bias_pairs)
     : capacity_(capacity),
-      state_(3, capacity + anchors, consistency, threads, error_pairs),
+      state_(3, capacity + anchors, consistency, threads, bias_pairs),
       anchors_(static_cast<std::size_t>(anchors)) {
   features_.reserve(static_cast<std::size_t>(capacity));
   owners_.reserve(static_cast<std::size_t>(capacity) + static_cast<std::size_t>(anchors));
@@ -48,13 +48,13 @@ Pose2 PixelMap::anchor_pose(int anchor) const {
 }
 
 int PixelMap::add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray,
-                      const Eigen::Matrix3d& covariance, const ErrorTerms& errors) {
+                      const Eigen::Matrix3d& covariance) {
   hold(anchor);
   owners_.push_back({false, static_cast<int>(features_.size())});
   Feature added;
   added.id = id;
   added.anchor = anchor;
-  added.element = state_.add_relative(ray, covariance, errors);
+  added.element = state_.add_relative(ray, covariance);
   features_.push_back(added);
   return static_cast<int>(features_.size()) - 1;
 }

@@ -36,7 +36,7 @@ class PixelMap {
     [[nodiscard]] bool is_point() const { return anchor < 0; }
   };
 
-  PixelMap(int capacity, int anchors, Consistency consistency, int threads, int error_pairs);
+  PixelMap(int capacity, int anchors, Consistency consistency, int threads, int bias_pairs);
 
   /// Starts from a saved map of points; only before anything was added. It must fit.
   void load(const MapState& map);
@@ -67,8 +67,7 @@ class PixelMap {
 
   /// Appends a ray (x, y, rho) with its covariance and returns its index; it holds its anchor. The map must
   /// not be full.
-  int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance,
-              const ErrorTerms& errors = {});
+  int add_ray(LandmarkId id, int anchor, const Eigen::Vector3d& ray, const Eigen::Matrix3d& covariance);
   /// Turns a ray into the point that it says.
   void make_point(int index, const Camera& camera);
   /// The last feature takes the place of a removed one.

@@ -29,9 +29,9 @@ void PixelNoise::begin_image(State& state) const {
   if (has_jitter()) state.propagate_bias(0, 0.0);
 }
 
-ErrorTerms PixelNoise::attitude_jitter(const Eigen::Vector3d& p_camera,
-                                       const Eigen::Matrix<double, 2, 3>& J) const {
-  ErrorTerms terms;
+BiasTerms PixelNoise::attitude_jitter(const Eigen::Vector3d& p_camera,
+                                      const Eigen::Matrix<double, 2, 3>& J) const {
+  BiasTerms terms;
   if (!has_jitter()) return terms;
   terms[0].pair = 0;
   terms[0].J.topRows<2>() << jitter_rad_ * J * Eigen::Vector3d::UnitX().cross(p_camera),

@@ -8,9 +8,12 @@
 
 namespace waymark::ekf {
 
+/// Part of the true pixels that passes the gate of one pixel.
+inline constexpr double kPixelGateProbability = 0.9999;
+
 /// In what ways the pixel of a landmark differs from where the landmark is (docs/camera.md, "What a pixel is
 /// worth"): noise that is new in every observation, an attitude jitter of the camera that all observations of
-/// one image share, and the wandering of a patch, which is an error of the landmark. All functions are O(1).
+/// one image share, and the drift of a patch, which is an error of the landmark. All functions are O(1).
 class PixelNoise {
  public:
   explicit PixelNoise(const PixelSlamOptions& options);
@@ -26,10 +29,10 @@ class PixelNoise {
   void begin_image(State& state) const;
   /// What an attitude jitter about the camera's x and z axis does to the pixel of a point, d(u, v)/d(pair 0).
   /// `p_camera` is the point in the camera frame, up to a factor, J = d(u, v)/d p_camera.
-  [[nodiscard]] ErrorTerms attitude_jitter(const Eigen::Vector3d& p_camera,
-                                           const Eigen::Matrix<double, 2, 3>& J) const;
+  [[nodiscard]] BiasTerms attitude_jitter(const Eigen::Vector3d& p_camera,
+                                          const Eigen::Matrix<double, 2, 3>& J) const;
 
-  /// Variance of how far a patch wanders on a point `p_world` while the camera moves between two places,
+  /// Variance of how far a patch drifts on a point `p_world` while the camera moves between two places,
   /// px^2: it grows with the angle between the two views.
   [[nodiscard]] double process_noise_px2(const Eigen::Vector3d& p_world, const Eigen::Vector3d& from,
                                          const Eigen::Vector3d& to) const;

@@ -77,12 +77,12 @@ std::optional<LinearizedObservation> PixelPrediction::linearize(const PixelMap& 
 
 std::optional<LinearizedObservation> PixelPrediction::linearize_at_proposal(const PixelMap& map,
                                                                             const FoundPixel& found) const {
-  const State& state = map.state();
-  auto seen = project_feature(map, found.feature, camera_.pose(state.proposed_pose()),
-                              [&](int element) { return state.proposed_landmark(element); });
+  const Proposal proposal = map.state().proposal();
+  auto seen = project_feature(map, found.feature, camera_.pose(proposal.pose()),
+                              [&](int element) { return proposal.landmark(element); });
   if (!seen) return std::nullopt;
   seen->linearization.R = found.R;
-  seen->linearization.nu = found.z_px - seen->predicted - state.proposed_expected(seen->linearization.errors);
+  seen->linearization.nu = found.z_px - seen->predicted - proposal.expected(seen->linearization.errors);
   return seen->linearization;
 }
 

@@ -42,7 +42,7 @@ class PixelPrediction {
   [[nodiscard]] std::optional<LinearizedObservation> linearize_at_proposal(const PixelMap& map,
                                                                            const FoundPixel& found) const;
 
-  /// A landmark of the map in the image that is about to be looked at, with S = H P H^T + R; lets it wander
+  /// A landmark of the map in the image that is about to be looked at, with S = H P H^T + R; lets it drift
   /// before. Nothing where it should not be looked for: outside of the image, or seen from so far away from
   /// where it was first seen that it would not be recognised.
   [[nodiscard]] std::optional<Expectation> expect(PixelMap& map, int feature, const CameraPose& here) const;
@@ -51,7 +51,7 @@ class PixelPrediction {
 
   /// Where a landmark is in the world, m; a ray that leads behind infinity as far away as points may be.
   [[nodiscard]] Eigen::Vector3d place(const PixelMap& map, int feature) const;
-  /// Process noise of a landmark at `p_world`: how far it has wandered across the line of sight since the
+  /// Process noise of a landmark at `p_world`: how far it has drifted across the line of sight since the
   /// camera last looked at it. A patch is no point. Warped as a plane that faces the camera it fits best a
   /// little beside where it was cut, and the more so the more the view has turned. Images from nearly the
   /// same place are off by the same: an error of the landmark, not of the pixel.

@@ -137,7 +137,7 @@ void PixelSlam::convert_rays() {
   const Eigen::Vector3d here = prediction_.camera_pose(map()).p_world_camera;
   for (const Innovation& innovation : innovations_) {
     if (innovation.outcome != Outcome::kMatched) continue;
-    if (const auto feature = map().find(innovation.landmark)) map_.settle(*feature, here);
+    if (const auto feature = map().find(innovation.landmark)) map_.convert_ray(*feature, here);
   }
 }
 

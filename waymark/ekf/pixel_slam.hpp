@@ -18,8 +18,8 @@
 namespace waymark {
 
 /// EKF-SLAM with 3-D points observed as pixels (Vincke et al. 2012 \cite vincke2012). It handles no
-/// images: the front end asks expect() where to search for landmarks, and reports those found (correct())
-/// and not found (missed()). A pixel of a new identity starts a candidate, whose depth is estimated from
+/// images: the front end asks expect() where to search for landmarks, and tells correct() which were
+/// found and which were not. A pixel of a new identity starts a candidate, whose depth is estimated from
 /// later pixels.
 class PixelSlam final : public Filter {
  public:

@@ -22,7 +22,7 @@ int max_iterations(const PixelSlamOptions& options) {
 PixelUpdate::PixelUpdate(const PixelSlamOptions& options, BoundedMap& map, const PixelPrediction& prediction)
     : map_(map),
       prediction_(prediction),
-      gate_(chi2_quantile(options.gate_probability, 2)),
+      gate_(chi2_quantile(kPixelGateProbability, 2)),
       gates_alone_(options.update == UpdateMethod::kTextbook),
       consensus_(State::kMaxObservations, gate_,
                  prediction.camera().width_px() * prediction.camera().height_px()),

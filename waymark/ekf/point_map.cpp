@@ -25,9 +25,9 @@ Compression compression(const EkfOptions& options) {
 
 }  // namespace
 
-PointMap::PointMap(const EkfOptions& options, int error_pairs, int threads)
-    : state_(2, options.capacity, options.consistency, compression(options), threads, error_pairs),
-      management_(options.evict, options.capacity),
+PointMap::PointMap(const EkfOptions& options, int bias_pairs, int threads)
+    : state_(2, options.capacity, options.consistency, compression(options), threads, bias_pairs),
+      management_(options.capacity),
       table_(options.capacity),
       loaded_(options.loaded) {
   extents_.reserve(as_index(options.capacity));
@@ -36,7 +36,7 @@ PointMap::PointMap(const EkfOptions& options, int error_pairs, int threads)
 Result<void> PointMap::load(const MapState& map) {
   if (auto fits = check_fits(map, 2, state_.capacity()); !fits) return fits;
   if (table_.size() > 0) return Error{"map: can be loaded only before the first motion or observation"};
-  if (std::ssize(map.ids) > state_.max_loaded())
+  if (std::ssize(map.ids) > state_.active().capacity())
     return Error{concat("map: ", map.ids.size(), " landmarks, but EkfOptions::loaded is ", loaded_)};
   state_.load(mean_of(map), map.covariance);
   for (std::size_t i = 0; i < map.ids.size(); ++i) {
@@ -51,7 +51,7 @@ Result<void> PointMap::load(const MapState& map) {
 }
 
 Snapshot PointMap::snapshot() const {
-  Snapshot snapshot{{}, state_.pose(), {}};
+  Snapshot snapshot{{}, state_.active().pose(), {}};
   for (int i = 0; i < table_.size(); ++i)
     if (table_.is_in_map(i))
       snapshot.landmarks.push_back(
@@ -61,8 +61,8 @@ Snapshot PointMap::snapshot() const {
 
 MapState PointMap::save() const {
   MapState map;
-  map.landmark_dimension = state_.dimension();
-  map.T_world_robot = state_.pose().T_world_robot;
+  map.landmark_dimension = state_.active().dimension();
+  map.T_world_robot = state_.active().pose().T_world_robot;
   std::vector<Eigen::Index> rows{0, 1, 2};
   for (int i = 0; i < table_.size(); ++i) {
     if (!table_.is_in_map(i)) continue;
@@ -76,11 +76,11 @@ MapState PointMap::save() const {
   return map;
 }
 
-int PointMap::append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const ErrorTerms& errors,
+int PointMap::append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const BiasTerms& errors,
                      const LandmarkRecord& record) {
   Eigen::Matrix3d G_pose = Eigen::Matrix3d::Zero();
   G_pose.topLeftCorner<2, 2>().setIdentity();
-  G_pose.block<2, 1>(0, 2) = perpendicular(p_world - state_.linearization_pose().position());
+  G_pose.block<2, 1>(0, 2) = perpendicular(p_world - state_.active().linearization_pose().position());
   Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
   added.topLeftCorner<2, 2>() = noise;
   management_.added(record.identity == Identity::kNoLandmark);
@@ -101,7 +101,7 @@ void PointMap::remove(int landmark) {
 
 bool PointMap::make_room() {
   if (state_.landmarks() < state_.capacity()) return true;
-  const auto least_useful = management_.evicts() ? management_.least_useful() : std::nullopt;
+  const auto least_useful = management_.least_useful();
   if (least_useful) remove(*least_useful);
   return least_useful.has_value();
 }

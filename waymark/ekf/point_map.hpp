@@ -24,8 +24,8 @@ namespace waymark::ekf {
 /// the same when landmarks are removed and indices change.
 class PointMap {
  public:
-  /// The state has `error_pairs` pairs of biases; `threads` share updates of large maps.
-  PointMap(const EkfOptions& options, int error_pairs, int threads);
+  /// The state has `bias_pairs` pairs of biases; `threads` share updates of large maps.
+  PointMap(const EkfOptions& options, int bias_pairs, int threads);
 
   [[nodiscard]] CompressedState& state() { return state_; }
   [[nodiscard]] const CompressedState& state() const { return state_; }
@@ -43,7 +43,7 @@ class PointMap {
   /// Appends a point that was seen from the robot, so that it turns with it: position in the world,
   /// covariance of what the observation adds (m^2), and how biases are in it. Returns its index.
   /// There must be room. O(n).
-  int append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const ErrorTerms& errors,
+  int append(const Eigen::Vector2d& p_world, const Eigen::Matrix2d& noise, const BiasTerms& errors,
              const LandmarkRecord& record);
   /// Marginalises a landmark out; the last one takes its index. O(n).
   void remove(int landmark);

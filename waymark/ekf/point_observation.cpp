@@ -65,27 +65,29 @@ std::optional<LinearizedObservation> linearize(const Measurement& z, const Linea
 
 std::optional<LinearizedObservation> PointObservation::linearize(int landmark, LandmarkId id,
                                                                  const Observation& observation) const {
-  const LinearizationPoint here{state_.pose().T_world_robot, state_.landmark(landmark).head<2>()};
-  const LinearizationPoint at{state_.linearization_pose(), state_.linearization_landmark(landmark).head<2>()};
+  const LinearizationPoint here{state_.active().pose().T_world_robot, state_.landmark(landmark).head<2>()};
+  const LinearizationPoint at{state_.active().linearization_pose(),
+                              state_.linearization_landmark(landmark).head<2>()};
   auto linearization = ekf::linearize(observation.value, here, at, T_robot_sensor_);
   if (!linearization) return std::nullopt;
   const double range_m = (here.p_world - here.T_world_robot.position()).norm();
   const ObservationBias error = error_of(id, range_m, observation.value);
   linearization->landmark = landmark;
   linearization->errors = error.terms;
-  linearization->nu -= state_.expected(error.terms);
+  linearization->nu -= state_.active().expected(error.terms);
   linearization->R = noise_of(observation) + error.unmodelled;
   return linearization;
 }
 
 std::optional<LinearizedObservation> PointObservation::linearize_at_proposal(
     const LinearizedObservation& before, const Measurement& z) const {
-  const LinearizationPoint there{state_.proposed_pose(), state_.proposed_landmark(before.landmark).head<2>()};
+  const Proposal proposal = state_.proposal();
+  const LinearizationPoint there{proposal.pose(), proposal.landmark(before.landmark).head<2>()};
   auto linearization = ekf::linearize(z, there, there, T_robot_sensor_);
   if (!linearization) return std::nullopt;
   linearization->landmark = before.landmark;
   linearization->errors = before.errors;
-  linearization->nu -= state_.proposed_expected(before.errors);
+  linearization->nu -= proposal.expected(before.errors);
   linearization->R = before.R;
   return linearization;
 }
@@ -93,12 +95,12 @@ std::optional<LinearizedObservation> PointObservation::linearize_at_proposal(
 LocatedPoint PointObservation::locate(LandmarkId id, const Observation& observation) const {
   const auto& z = std::get<RangeBearing>(observation.value);
   ObservationBias error = errors_.of(id, z.range_m);
-  const Eigen::Vector2d expected_error = state_.expected(error.terms);
+  const Eigen::Vector2d expected_error = state_.active().expected(error.terms);
   const auto inverse = RangeBearingModel::locate(
-      state_.pose().T_world_robot, T_robot_sensor_,
+      state_.active().pose().T_world_robot, T_robot_sensor_,
       {z.range_m - expected_error[0], wrap_angle(z.bearing_rad - expected_error[1])});
   const Eigen::Matrix2d& G = inverse.G_measurement;
-  for (ErrorTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
+  for (BiasTerm& term : error.terms) term.J.topRows<2>() = (-G * term.J.topRows<2>()).eval();
   return {inverse.p_world, G * (*observation.covariance + error.unmodelled) * G.transpose(), error.terms};
 }
 
@@ -106,7 +108,7 @@ ObservationBias PointObservation::error_of(LandmarkId id, double range_m, const 
   ObservationBias error = errors_.of(id, range_m);
   if (std::holds_alternative<RangeBearing>(z)) return error;
   const int row = std::holds_alternative<Bearing>(z) ? 1 : 0;
-  for (ErrorTerm& term : error.terms) {
+  for (BiasTerm& term : error.terms) {
     term.J.row(0) = term.J.row(row).eval();
     term.J.row(1).setZero();
   }

@@ -22,7 +22,7 @@ struct LinearizationPoint {
 struct LocatedPoint {
   Eigen::Vector2d p_world;
   Eigen::Matrix2d noise;
-  ErrorTerms errors;
+  BiasTerms errors;
 };
 
 /// Whether an observation is one of range, bearing or both, with finite numbers and covariance, and no nearer
@@ -46,7 +46,9 @@ class PointObservation {
       : state_(state), errors_(errors), T_robot_sensor_(T_robot_sensor) {}
 
   /// Where the sensor is.
-  [[nodiscard]] Pose2 T_world_sensor() const { return state_.pose().T_world_robot * T_robot_sensor_; }
+  [[nodiscard]] Pose2 T_world_sensor() const {
+    return state_.active().pose().T_world_robot * T_robot_sensor_;
+  }
 
   /// Innovation at the present estimate, Jacobians where the consistency mode wants them. `landmark` is its
   /// index in the state, `id` what its biases go by. Nothing where the landmark is believed to be at

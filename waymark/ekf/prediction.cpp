@@ -19,9 +19,9 @@ void Prediction::apply(Covariance& P, const Eigen::Matrix3d& Q) const {
 
 /// With A = G d(increment)/de and P_re as F leaves it: P_rm += A P_em, P_rr += A P_er + P_re A^T + A P_ee
 /// A^T.
-void Prediction::spread(Covariance& P, const ErrorTerms& errors) const {
+void Prediction::spread(Covariance& P, const BiasTerms& errors) const {
   P.propagate_cross_covariance();
-  const Touched t(Eigen::Matrix3d::Zero(), errors);
+  const SparseJacobian t(Eigen::Matrix3d::Zero(), errors);
   Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d own = cross;
   for (Eigen::Index i = 3; i < t.J.cols(); ++i) {

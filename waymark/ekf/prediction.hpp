@@ -4,7 +4,7 @@
 
 #include "waymark/core/motion.hpp"
 #include "waymark/ekf/covariance.hpp"
-#include "waymark/ekf/touched.hpp"
+#include "waymark/ekf/sparse_jacobian.hpp"
 
 namespace waymark::ekf {
 
@@ -20,7 +20,7 @@ class Prediction {
   void apply(Covariance& P, const Eigen::Matrix3d& Q) const;
   /// Where the increment depends on biases e as `errors` say, d(increment)/de: what these have in
   /// common with the state becomes the robot's as well. After apply(). O(n).
-  void spread(Covariance& P, const ErrorTerms& errors) const;
+  void spread(Covariance& P, const BiasTerms& errors) const;
 
  private:
   Pose2 after_;

@@ -2,6 +2,12 @@
 
 namespace waymark::ekf {
 
+Proposal Proposal::with_indices_of(const Slots& map) const {
+  Proposal proposal = *this;
+  proposal.map_ = &map;
+  return proposal;
+}
+
 Pose2 Proposal::pose() const {
   const Pose2 before = before_.pose().T_world_robot;
   const Eigen::Vector2d moved = retraction_.displacement({dx_[0], dx_[1]});
@@ -10,12 +16,12 @@ Pose2 Proposal::pose() const {
 
 Eigen::Vector3d Proposal::landmark(int index) const {
   Eigen::Vector3d dx = increment(index);
-  if (!before_.is_relative(index)) dx.head<2>() = retraction_.displacement(dx.head<2>());
-  return before_.landmark(index) + dx;
+  if (!before_.is_relative(local(index))) dx.head<2>() = retraction_.displacement(dx.head<2>());
+  return before_.landmark(local(index)) + dx;
 }
 
-Eigen::Vector2d Proposal::expected(const ErrorTerms& terms) const {
-  return before_.expected(terms) + error_part(dx_, terms);
+Eigen::Vector2d Proposal::expected(const BiasTerms& terms) const {
+  return before_.expected(terms) + bias_part(dx_, terms);
 }
 
 Eigen::Vector2d Proposal::explained(const LinearizedObservation& linearization) const {
@@ -24,7 +30,7 @@ Eigen::Vector2d Proposal::explained(const LinearizedObservation& linearization) 
   if (linearization.anchor >= 0) sum += linearization.H_anchor * increment(linearization.anchor);
   if (linearization.second_anchor >= 0)
     sum += linearization.H_second_anchor * increment(linearization.second_anchor);
-  return sum + error_part(dx_, linearization.errors);
+  return sum + bias_part(dx_, linearization.errors);
 }
 
 /// What turning the increment dq of a point adds to the heading's column.
@@ -40,7 +46,7 @@ LinearizedObservation Proposal::relinearized_to_prior(const LinearizedObservatio
   if (retraction_.turns()) {
     auto heading = back.H_pose.col(2);
     heading += turned(linearization.H_pose, {dx_[0], dx_[1]});
-    if (!before_.is_relative(linearization.landmark))
+    if (!before_.is_relative(local(linearization.landmark)))
       heading += turned(linearization.H_landmark, increment(linearization.landmark).head<2>());
     if (linearization.anchor >= 0)
       heading += turned(linearization.H_anchor, increment(linearization.anchor).head<2>());

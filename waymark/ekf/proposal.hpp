@@ -6,6 +6,7 @@
 #include "waymark/ekf/belief.hpp"
 #include "waymark/ekf/consistency.hpp"
 #include "waymark/ekf/linearized_observation.hpp"
+#include "waymark/ekf/slots.hpp"
 
 namespace waymark::ekf {
 
@@ -16,10 +17,13 @@ class Proposal {
   /// dx: increments of `before`, n, as Update finds them.
   Proposal(const Belief& before, const double* dx)
       : before_(before), dx_(dx), retraction_(before.consistency(), dx[2]) {}
+  /// The same for a compressed map: landmarks go by their index in it. Those asked for must be in the
+  /// submap.
+  [[nodiscard]] Proposal with_indices_of(const Slots& map) const;
 
   [[nodiscard]] Pose2 pose() const;
   [[nodiscard]] Eigen::Vector3d landmark(int index) const;
-  [[nodiscard]] Eigen::Vector2d expected(const ErrorTerms& terms) const;
+  [[nodiscard]] Eigen::Vector2d expected(const BiasTerms& terms) const;
   /// H dx: what the proposal explains of an observation's innovation, if all were linear.
   [[nodiscard]] Eigen::Vector2d explained(const LinearizedObservation& linearization) const;
   /// An observation that was linearised at what is proposed (nu = z - h there, ordinary Jacobians), as one of
@@ -28,14 +32,19 @@ class Proposal {
   [[nodiscard]] LinearizedObservation relinearized_to_prior(const LinearizedObservation& linearization) const;
 
  private:
+  /// Its index in the state.
+  [[nodiscard]] int local(int landmark) const {
+    return map_ == nullptr ? landmark : map_->local_of(landmark);
+  }
   [[nodiscard]] Eigen::Vector3d increment(int landmark) const {
-    return before_.layout().landmark(dx_, landmark);
+    return before_.layout().landmark(dx_, local(landmark));
   }
   [[nodiscard]] Eigen::Vector2d turned(const Eigen::Matrix<double, 2, 3>& H, const Eigen::Vector2d& dq) const;
 
   const Belief& before_;
   const double* dx_;
   Retraction retraction_;
+  const Slots* map_ = nullptr;  // null: landmarks go by their index in the state
 };
 
 }  // namespace waymark::ekf

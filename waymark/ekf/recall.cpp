@@ -58,16 +58,16 @@ Recall::Landmark Recall::landmark(int slot) {
 }
 
 /// P(row, :) J^T for the robot and the errors that something depends on.
-Eigen::Vector2d Recall::correlation(std::size_t row, const Touched& touched) const {
+Eigen::Vector2d Recall::correlation(std::size_t row, const SparseJacobian& jacobian) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (Eigen::Index k = 0; k < touched.head; ++k)
-    sum += active_.covariance(row, touched.rows[static_cast<std::size_t>(k)]) * touched.J.col(k).head<2>();
+  for (Eigen::Index k = 0; k < jacobian.head; ++k)
+    sum += active_.covariance(row, jacobian.rows[static_cast<std::size_t>(k)]) * jacobian.J.col(k).head<2>();
   return sum;
 }
 
 Eigen::Matrix2d Recall::innovation_covariance(int slot, const LinearizedObservation& linearization) {
   const Landmark now = landmark(slot);
-  const Touched head(linearization.H_pose, linearization.errors);
+  const SparseJacobian head(linearization.H_pose, linearization.errors);
   const auto H_landmark = linearization.H_landmark.leftCols(active_.dimension());
   Eigen::Matrix2d S =
       linearization.R + linearization.H_landmark * now.covariance * linearization.H_landmark.transpose();
@@ -82,7 +82,7 @@ Eigen::Matrix2d Recall::innovation_covariance(int slot, const LinearizedObservat
 
 Eigen::Matrix<double, 3, 2> Recall::pose_correlation(int slot, const LinearizedObservation& linearization) {
   (void)landmark(slot);
-  const Touched head(linearization.H_pose, linearization.errors);
+  const SparseJacobian head(linearization.H_pose, linearization.errors);
   Eigen::Matrix<double, 3, 2> C =
       cross_.topRows<3>() * linearization.H_landmark.leftCols(active_.dimension()).transpose();
   for (int i = 0; i < 3; ++i) C.row(i) += correlation(static_cast<std::size_t>(i), head).transpose();

@@ -47,7 +47,7 @@ class Recall {
  private:
   [[nodiscard]] Retraction retraction() const { return {active_.consistency(), since_.turn()}; }
   [[nodiscard]] Eigen::Vector3d displacement(int slot, const Retraction& retraction);
-  [[nodiscard]] Eigen::Vector2d correlation(std::size_t row, const Touched& touched) const;
+  [[nodiscard]] Eigen::Vector2d correlation(std::size_t row, const SparseJacobian& jacobian) const;
 
   const State& active_;
   const CompressedTerms& since_;

@@ -16,12 +16,13 @@ void Recency::begin_step() {
 }
 
 void Recency::count(int member) {
-  if (seen(member) <= step_began_) count_another();
-}
-
-void Recency::count_another() {
+  if (member != kNoMember && seen(member) > step_began_) return;
   ++in_view_;
   max_in_view_ = std::max(max_in_view_, in_view_);
+}
+
+void Recency::mark_seen(int member) {
+  if (member != kNoMember) seen_[static_cast<std::size_t>(member)] = now_;
 }
 
 void Recency::leave(int member) {

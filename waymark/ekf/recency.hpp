@@ -19,11 +19,12 @@ class Recency {
   /// The robot moves: what is seen from now on is seen from a new place.
   void begin_step();
   void begin_update() { ++now_; }
-  /// A member is about to be seen: what is seen again in a step counts once.
+  /// A landmark that is not in the submap.
+  static constexpr int kNoMember = -1;
+  /// A landmark is about to be seen: a member that is seen again in a step counts once.
   void count(int member);
-  /// The same of a landmark that is not a member.
-  void count_another();
-  void mark_seen(int member) { seen_[static_cast<std::size_t>(member)] = now_; }
+  /// Does nothing for kNoMember.
+  void mark_seen(int member);
   void mark_removed(int member) { seen_[static_cast<std::size_t>(member)] = kRemoved; }
   [[nodiscard]] bool is_removed(int member) const {
     return seen_[static_cast<std::size_t>(member)] == kRemoved;

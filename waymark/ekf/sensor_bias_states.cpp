@@ -74,9 +74,9 @@ CalibrationEstimate SensorBiasStates::calibration(const CompressedState& state) 
   const auto tell = [&](CalibrationIndex index, double prior_sigma, int pair, int member) {
     if (!(prior_sigma > 0.0)) return;
     estimate.prior_sigmas[index] = prior_sigma;
-    estimate.mean[index] = prior_sigma * state.active().errors(pair)[member];
+    estimate.mean[index] = prior_sigma * state.active().biases(pair)[member];
     estimate.sigmas[index] =
-        prior_sigma * std::sqrt(state.active().errors_covariance(pair, pair)(member, member));
+        prior_sigma * std::sqrt(state.active().bias_covariance(pair, pair)(member, member));
   };
   tell(kRangeScale, sensor_.shared_range_sigma_ratio, 0, 0);
   tell(kBearingOffset, to_radians(sensor_.shared_bearing_sigma_deg), 0, 1);

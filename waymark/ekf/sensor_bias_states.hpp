@@ -13,14 +13,14 @@ namespace waymark::ekf {
 
 /// What biases do to one observation z = h + e + v: e = sum of J times the pairs of the state.
 struct ObservationBias {
-  ErrorTerms terms = {};
+  BiasTerms terms = {};
   Eigen::Matrix2d unmodelled = Eigen::Matrix2d::Zero();  ///< covariance of what no pair stands for
 };
 
 /// Errors of the sensor that outlive an observation, as states of the filter (the shaping filter of Bryson
 /// and Henrikson 1968). The first pairs are what all observations share, a calibration: scale of ranges and
-/// offset of bearings, then offset of ranges. The others are lent to the landmarks that were seen last, each
-/// a Gauss-Markov process along the way: what two observations of one landmark have in common falls with
+/// offset of bearings, then offset of ranges. The others are assigned to the landmarks that were seen last,
+/// each a Gauss-Markov process along the way: what two observations of one landmark have in common falls with
 /// exp(-d / bias_distance_m).
 ///
 /// White noise in its place is wrong in one of two ways: as large as the errors are it hides how well
@@ -37,7 +37,8 @@ class SensorBiasStates {
   void start(CompressedState& state) const;
   void drive(double travelled_m) { travelled_m_ += travelled_m; }
   void begin_scan() { ++scan_; }
-  /// A landmark is about to be sighted, for the first time in this scan: its pair drifts as far as it has to.
+  /// A landmark is about to be observed, for the first time in this scan: its pair drifts as far as it has
+  /// to.
   void assign(CompressedState& state, LandmarkId landmark);
   /// What is in an observation of a landmark after assign(). Range-bearing: metres and radians.
   [[nodiscard]] ObservationBias of(LandmarkId landmark, double range_m) const;

@@ -4,9 +4,9 @@
 
 namespace waymark::ekf {
 
-/// Where the landmarks of a compressed map stand. A landmark has a slot in the passive map for as long as it
-/// is there, and a place in the active state for as long as it is a member of the submap. Its index, by which
-/// others know it, changes when another one is removed. Nothing allocates after construction.
+/// Where the landmarks of a compressed map stand. A landmark has a slot in the passive submap for as long as
+/// it is there, and a place in the active state for as long as it is a member of the submap. Its index, by
+/// which others know it, changes when another one is removed. Nothing allocates after construction.
 class Slots {
  public:
   /// For maps of `capacity` landmarks and submaps of `submap_capacity`: with so many that were removed but

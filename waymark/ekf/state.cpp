@@ -7,8 +7,8 @@
 
 namespace waymark::ekf {
 
-State::State(int dimension, int capacity, Consistency consistency, int threads, int error_pairs)
-    : Belief({dimension, error_offset(error_pairs)}, capacity, consistency),
+State::State(int dimension, int capacity, Consistency consistency, int threads, int bias_pairs)
+    : Belief({dimension, bias_offset(bias_pairs)}, capacity, consistency),
       update_(offset(capacity), threads),
       shear_(offset(capacity)) {}
 
@@ -43,15 +43,15 @@ void State::place_robot(const PoseEstimate& pose) {
   }
 }
 
-void State::predict(const Motion& motion, const ErrorTerms& errors) {
+void State::predict(const Motion& motion, const BiasTerms& errors) {
   const Prediction prediction(StateLayout::pose(x_.data()), linearization_pose(), motion.increment);
   write_pose(prediction.pose());
   prediction.apply(P_, motion.covariance);
-  if (std::ranges::any_of(errors, &ErrorTerm::takes_part)) prediction.spread(P_, errors);
+  if (std::ranges::any_of(errors, &BiasTerm::takes_part)) prediction.spread(P_, errors);
 }
 
 void State::propagate_bias(int pair, double rho) {
-  const std::size_t first = error_offset(pair);
+  const std::size_t first = bias_offset(pair);
   for (std::size_t e = first; e < first + 2; ++e) {
     for (std::size_t i = 0; i < e; ++i) P_.row(i)[e] *= rho;
     for (std::size_t j = e; j < size(); ++j) P_.row(e)[j] *= rho;
@@ -93,7 +93,7 @@ void State::use_textbook_update() {
 }
 
 void State::hold_landmarks() {
-  assert(!turns_the_ground(consistency()) && !updates_by_textbook());
+  assert(!turns_the_ground(consistency()) && !update_.is_textbook());
   update_.consider_all_from(layout_.head);
 }
 
@@ -103,9 +103,9 @@ JointCovariance State::joint_innovation_covariance(std::span<const LinearizedObs
 }
 
 int State::add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
-               const ErrorTerms& errors) {
+               const BiasTerms& errors) {
   propagate_cross_covariance();
-  return insert(position, position, P_.derive(Touched(G_pose.topRows(dimension()), errors), noise));
+  return insert(position, position, P_.derive(SparseJacobian(G_pose.topRows(dimension()), errors), noise));
 }
 
 int State::insert(const Eigen::Vector3d& position, const Eigen::Vector3d& first, const NewRows& rows) {
@@ -124,9 +124,8 @@ int State::add_pose() {
   return add({x_[0], x_[1], x_[2]}, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero());
 }
 
-int State::add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
-                        const ErrorTerms& errors) {
-  const int index = add(values, Eigen::Matrix3d::Zero(), noise, errors);
+int State::add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise) {
+  const int index = add(values, Eigen::Matrix3d::Zero(), noise);
   relative_[static_cast<std::size_t>(index)] = 1;
   return index;
 }
@@ -134,7 +133,7 @@ int State::add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& no
 void State::make_absolute(int landmark, int anchor, const Eigen::Vector3d& position,
                           const Eigen::Matrix3d& G_anchor, const Eigen::Matrix3d& G_landmark) {
   propagate_cross_covariance();
-  Touched G(Eigen::Matrix3d::Zero(), {}, 6);
+  SparseJacobian G(Eigen::Matrix3d::Zero(), {}, 6);
   G.set_landmark(G.head, offset(landmark), 3, G_landmark);
   G.set_landmark(G.head + 3, offset(anchor), 3, G_anchor);
   P_.replace(offset(landmark), P_.derive(G, Eigen::Matrix3d::Zero()));

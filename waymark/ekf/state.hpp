@@ -19,17 +19,18 @@ namespace waymark::ekf {
 ///
 /// Biases are what successive observations have in common that is neither the robot's nor the map's
 /// doing. They come in pairs of independent unit variance at most; what a pair stands for, and how large it
-/// is, is for those who use it to say (ErrorTerm::J).
+/// is, is for those who use it to say (BiasTerm::J).
 ///
-/// What it believes is asked of its base. Costs with n = 3 + dimension * landmarks: predict O(1), joining the
-/// robot's rows up once per update O(n), update of D rows n^2 D flop, add O(n), remove O(n).
+/// What it believes is asked of its base, and what it proposes of proposal(). Costs with n = 3 + dimension *
+/// landmarks: predict O(1), joining the robot's rows up once per update O(n), update of D rows n^2 D flop,
+/// add O(n), remove O(n).
 class State : public Belief {
  public:
-  State(int dimension, int capacity, Consistency consistency, int threads = 1, int error_pairs = 0);
+  State(int dimension, int capacity, Consistency consistency, int threads = 1, int bias_pairs = 0);
 
   [[nodiscard]] int capacity() const { return static_cast<int>(relative_.size()); }
   /// Most observations that one update() takes.
-  static constexpr int kMaxObservations = Update::kManyObservations;
+  static constexpr int kMaxObservations = Update::kMaxObservations;
 
   /// Starts from a mean and covariance of (x, y, theta, landmarks) as mean() and covariance() give them; only
   /// before anything was added. The biases stay what they are, independent of all that.
@@ -41,7 +42,7 @@ class State : public Belief {
   /// Moves the robot: P_rr <- F P_rr F^T + G Q G^T at once; P_rm <- Phi P_rm when it is next needed. Where
   /// `errors` say how the motion's increment depends on biases, d(x, y, theta)/derrors, P_rm is
   /// brought up to date now: O(n).
-  void predict(const Motion& motion, const ErrorTerms& errors = {});
+  void predict(const Motion& motion, const BiasTerms& errors = {});
 
   /// Lets a pair of biases drift: e <- rho e + N(0, 1 - rho^2). With rho = 0 it forgets all and has
   /// unit variance. O(n).
@@ -62,12 +63,10 @@ class State : public Belief {
   /// From now on updates are computed as a textbook has it, for comparison (takes the memory for that). Only
   /// with kStandard; gain() is not to be had.
   void use_textbook_update();
-  [[nodiscard]] bool updates_by_textbook() const { return update_.is_textbook(); }
   /// From now on no update touches the landmarks, neither their mean nor their covariance: what they are
   /// unsure of is considered (Schmidt 1966), an update costs n D (head + D) flop. Not with kInvariant.
   void hold_landmarks();
 
-  using JointCovariance = ekf::JointCovariance;
   /// S of all these observations together, lower triangle, and its size: for those who ask which of them
   /// agree. Drops what was proposed. A view, good until the next call that changes or proposes anything.
   [[nodiscard]] JointCovariance joint_innovation_covariance(
@@ -77,7 +76,7 @@ class State : public Belief {
   /// their leading `dimension()` rows count; `errors` as dg/derrors. Returns its index. The map must not be
   /// full.
   int add(const Eigen::Vector3d& position, const Eigen::Matrix3d& G_pose, const Eigen::Matrix3d& noise,
-          const ErrorTerms& errors = {});
+          const BiasTerms& errors = {});
 
   /// Appends a landmark that was estimated elsewhere, first at `first`. Returns its index. The map must not
   /// be full.
@@ -88,9 +87,7 @@ class State : public Belief {
   int add_pose();
 
   /// Appends values that hold relative to another landmark, so that no turn of the world changes them.
-  /// `errors` as dg/derrors.
-  int add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise,
-                   const ErrorTerms& errors = {});
+  int add_relative(const Eigen::Vector3d& values, const Eigen::Matrix3d& noise);
 
   /// What a relative landmark and the pose it is relative to say together, as an ordinary landmark in the
   /// place of the former: position = g(anchor, landmark) with its Jacobians.
@@ -107,20 +104,6 @@ class State : public Belief {
   /// operation that needs it does it by itself.
   Eigen::Vector2d propagate_cross_covariance() { return P_.propagate_cross_covariance(); }
   [[nodiscard]] const Eigen::Vector2d& deferred() const { return P_.deferred(); }
-
-  // proposal(), question by question.
-  [[nodiscard]] Pose2 proposed_pose() const { return proposal().pose(); }
-  [[nodiscard]] Eigen::Vector3d proposed_landmark(int index) const { return proposal().landmark(index); }
-  [[nodiscard]] Eigen::Vector2d proposed_expected(const ErrorTerms& terms) const {
-    return proposal().expected(terms);
-  }
-  [[nodiscard]] Eigen::Vector2d explained(const LinearizedObservation& linearization) const {
-    return proposal().explained(linearization);
-  }
-  [[nodiscard]] LinearizedObservation relinearized_to_prior(
-      const LinearizedObservation& linearization) const {
-    return proposal().relinearized_to_prior(linearization);
-  }
 
  private:
   void write_pose(const Pose2& pose);

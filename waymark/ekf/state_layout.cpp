@@ -2,9 +2,9 @@
 
 namespace waymark::ekf {
 
-Touched StateLayout::touched(const LinearizedObservation& linearization, int rows) const {
+SparseJacobian StateLayout::jacobian(const LinearizedObservation& linearization, int rows) const {
   const int points = 1 + (linearization.anchor >= 0 ? 1 : 0) + (linearization.second_anchor >= 0 ? 1 : 0);
-  Touched t(linearization.H_pose.topRows(rows), linearization.errors, points * dimension);
+  SparseJacobian t(linearization.H_pose.topRows(rows), linearization.errors, points * dimension);
   int column = t.head;
   const auto touch = [&](int index, const Eigen::Matrix<double, 2, 3>& H) {
     if (index < 0) return;
@@ -17,15 +17,15 @@ Touched StateLayout::touched(const LinearizedObservation& linearization, int row
   return t;
 }
 
-Eigen::Vector2d error_pair(const double* values, int pair) {
-  const double* e = values + error_offset(pair);
+Eigen::Vector2d bias_pair(const double* values, int pair) {
+  const double* e = values + bias_offset(pair);
   return {e[0], e[1]};
 }
 
-Eigen::Vector2d error_part(const double* values, const ErrorTerms& terms) {
+Eigen::Vector2d bias_part(const double* values, const BiasTerms& terms) {
   Eigen::Vector2d part = Eigen::Vector2d::Zero();
-  for (const ErrorTerm& term : terms)
-    if (term.takes_part()) part += term.J.topRows<2>() * error_pair(values, term.pair);
+  for (const BiasTerm& term : terms)
+    if (term.takes_part()) part += term.J.topRows<2>() * bias_pair(values, term.pair);
   return part;
 }
 

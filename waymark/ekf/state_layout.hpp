@@ -6,7 +6,7 @@
 
 #include "waymark/core/pose2.hpp"
 #include "waymark/ekf/linearized_observation.hpp"
-#include "waymark/ekf/touched.hpp"
+#include "waymark/ekf/sparse_jacobian.hpp"
 
 namespace waymark::ekf {
 
@@ -34,12 +34,12 @@ struct StateLayout {
   }
 
   /// The rows of the state that the first `rows` rows of an observation depend on.
-  [[nodiscard]] Touched touched(const LinearizedObservation& linearization, int rows) const;
+  [[nodiscard]] SparseJacobian jacobian(const LinearizedObservation& linearization, int rows) const;
 };
 
 /// The two values of a pair of biases.
-[[nodiscard]] Eigen::Vector2d error_pair(const double* values, int pair);
+[[nodiscard]] Eigen::Vector2d bias_pair(const double* values, int pair);
 /// What biases of these values add up to: the sum of J e.
-[[nodiscard]] Eigen::Vector2d error_part(const double* values, const ErrorTerms& terms);
+[[nodiscard]] Eigen::Vector2d bias_part(const double* values, const BiasTerms& terms);
 
 }  // namespace waymark::ekf

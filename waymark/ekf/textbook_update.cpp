@@ -32,16 +32,16 @@ void multiply_transposed(const DenseMatrix& A, const DenseMatrix& B, DenseMatrix
 
 }  // namespace
 
-TextbookUpdate::TextbookUpdate(std::size_t most_rows, std::size_t largest_state)
-    : H(most_rows, largest_state),
-      R(most_rows, most_rows),
+TextbookUpdate::TextbookUpdate(std::size_t max_rows, std::size_t largest_state)
+    : H(max_rows, largest_state),
+      R(max_rows, max_rows),
       P(largest_state, largest_state),
-      nu(most_rows, 1),
+      nu(max_rows, 1),
       dx(largest_state, 1),
-      PHt_(largest_state, most_rows),
-      S_(most_rows, most_rows),
-      S_inverse_(most_rows, most_rows),
-      K_(largest_state, most_rows),
+      PHt_(largest_state, max_rows),
+      S_(max_rows, max_rows),
+      S_inverse_(max_rows, max_rows),
+      K_(largest_state, max_rows),
       I_KH_(largest_state, largest_state),
       P_new_(largest_state, largest_state) {}
 
@@ -68,7 +68,7 @@ void TextbookUpdate::write_down(const Covariance& covariance, const StateLayout&
   begin(D, covariance.size());
   std::size_t row = 0;
   for (const LinearizedObservation& linearization : linearizations) {
-    const Touched t = layout.touched(linearization, linearization.rows);
+    const SparseJacobian t = layout.jacobian(linearization, linearization.rows);
     for (int r = 0; r < linearization.rows; ++r, ++row) {
       for (int k = 0; k < t.J.cols(); ++k) H(row, t.rows[static_cast<std::size_t>(k)]) = t.J(r, k);
       for (int s = 0; s < linearization.rows; ++s)

@@ -13,8 +13,8 @@ namespace waymark::ekf {
 /// A row-major matrix whose memory is taken once.
 class DenseMatrix {
  public:
-  explicit DenseMatrix(std::size_t most_rows, std::size_t max_columns) {
-    values_.reserve(most_rows * max_columns);
+  explicit DenseMatrix(std::size_t max_rows, std::size_t max_columns) {
+    values_.reserve(max_rows * max_columns);
   }
 
   /// Zeros, of a size that there is room for.
@@ -43,7 +43,7 @@ class DenseMatrix {
 /// Takes 2 n^3 + O(n^2 D) flop; nothing allocates after construction.
 class TextbookUpdate {
  public:
-  TextbookUpdate(std::size_t most_rows, std::size_t largest_state);
+  TextbookUpdate(std::size_t max_rows, std::size_t largest_state);
 
   /// The update of a state, as Update::propose() and Update::correct(); increments: n.
   [[nodiscard]] bool propose(const Covariance& covariance, const StateLayout& layout,

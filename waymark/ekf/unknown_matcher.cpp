@@ -8,24 +8,22 @@
 #include "waymark/association/gate.hpp"
 #include "waymark/core/as_index.hpp"
 #include "waymark/core/gaussian.hpp"
+#include "waymark/models/observation_models.hpp"
 
 namespace waymark::ekf {
 namespace {
 
-// A third of the smallest region of a compressed map: so many landmarks may be considered at once.
+// A third of the smallest submap: so many landmarks may be considered at once.
 constexpr std::size_t kMaxConsidered = 48;
 // Landmarks that one observation is compared with; the likeliest stay.
 constexpr std::ptrdiff_t kMaxPerObservation = 6;
+// Pairings that joint compatibility tries per scan.
+constexpr int kMaxPairings = 2000;
 
 /// -2 log N(nu; 0, S) but for a constant.
 double cost_of(double nis, const Eigen::Matrix2d& S) { return nis + std::log(S.determinant()); }
 
 double range_m(const Observation& observation) { return std::get<RangeBearing>(observation.value).range_m; }
-
-Eigen::Vector2d in_sensor(const Observation& observation) {
-  const auto& z = std::get<RangeBearing>(observation.value);
-  return z.range_m * Eigen::Vector2d(std::cos(z.bearing_rad), std::sin(z.bearing_rad));
-}
 
 }  // namespace
 
@@ -36,7 +34,7 @@ UnknownMatcher::UnknownMatcher(const UnknownAssociation& association, const Gate
       model_(model),
       gate_(Gate(gate).threshold(2)),
       jointly_(association.jointly),
-      joint_(gate.probability, static_cast<int>(kMaxConsidered), association.options.max_pairings) {
+      joint_(gate.probability, static_cast<int>(kMaxConsidered), kMaxPairings) {
   considered_.reserve(kMaxConsidered);
 }
 
@@ -58,7 +56,7 @@ std::span<const UnknownMatch> UnknownMatcher::match(std::span<const Observation>
 
 /// From where an observation is expected to where its gate may reach, but for what is unsure of the landmark.
 double UnknownMatcher::reach_m(const Observation& observation) const {
-  const Eigen::Matrix3d P = map_.state().pose().covariance;
+  const Eigen::Matrix3d P = map_.state().active().pose().covariance;
   const Eigen::Matrix2d& R = *observation.covariance;
   const double across_m = range_m(observation);
   return std::sqrt(P(0, 0) + P(1, 1)) + across_m * std::sqrt(P(2, 2)) +
@@ -72,7 +70,8 @@ void UnknownMatcher::visit_gated(const Observation& observation, const NearbyLan
                                  const Visit& visit) const {
   const double k_sigma = std::sqrt(gate_);
   const double reach = reach_m(observation);
-  const Eigen::Vector2d p_world = sensor_.T_world_sensor() * in_sensor(observation);
+  const Eigen::Vector2d p_world =
+      sensor_.T_world_sensor() * position_in_sensor(std::get<RangeBearing>(observation.value));
   nearby.visit(p_world, k_sigma * (reach + nearby.sigma_m()), [&](int k) {
     const double far_m = (nearby.place(k) - p_world).norm();
     if (far_m > k_sigma * (reach + map_.sigma_m(k))) return;
@@ -138,14 +137,14 @@ void UnknownMatcher::match_jointly(std::span<const Observation> observations) {
 }
 
 void UnknownMatcher::match_greedily(std::span<const Observation> observations) {
-  exclusive_.clear();
+  greedy_.clear();
   for (const UnknownMatch& c : candidates_)
-    exclusive_.add({c.observation, c.linearization.landmark,
-                    -0.5 * c.cost - kLogTwoPi + bonus(c, observations[as_index(c.observation)])});
-  exclusive_.solve(static_cast<int>(observations.size()), map_.state().landmarks(), 0.0);
+    greedy_.add({c.observation, c.linearization.landmark,
+                 -0.5 * c.cost - kLogTwoPi + bonus(c, observations[as_index(c.observation)])});
+  greedy_.solve(static_cast<int>(observations.size()), map_.state().landmarks(), 0.0);
   keep([this](int pair) {
     const UnknownMatch& c = candidates_[as_index(pair)];
-    return exclusive_.landmark_of(c.observation) == c.linearization.landmark;
+    return greedy_.landmark_of(c.observation) == c.linearization.landmark;
   });
 }
 

@@ -35,7 +35,7 @@ class UnknownMatcher {
 
   /// Matches the observations that are kUnidentified in `innovations` with landmarks that are not claimed in
   /// this scan, one to one, in the order of the observations. Brings the landmarks in question into the
-  /// region of a compressed map, 48 at most. The view is good until the next call. Cost: an innovation
+  /// the submap of a compressed map, 48 at most. The view is good until the next call. Cost: an innovation
   /// covariance per landmark within reach, and JointCompatibility's.
   [[nodiscard]] std::span<const UnknownMatch> match(std::span<const Observation> observations,
                                                     std::span<const Innovation> innovations,
@@ -61,7 +61,7 @@ class UnknownMatcher {
   AssociationModel model_;
   double gate_;
   bool jointly_;
-  GreedyMatch exclusive_;
+  GreedyMatch greedy_;
   JointCompatibility joint_;
   std::vector<UnknownMatch> candidates_;  // in the order of the observations; then the matches
   std::vector<int> considered_;           // their landmarks

@@ -40,19 +40,19 @@ bool Update::propose(const Covariance& P, const StateLayout& layout,
   return true;
 }
 
-/// C = H P from the touched rows of P, and the lower triangle of S = C H^T + R.
+/// C = H P from the rows of P that H depends on, and the lower triangle of S = C H^T + R.
 void Update::form_innovation_covariance(const Covariance& P, const StateLayout& layout,
                                         std::span<const LinearizedObservation> linearizations) {
-  assert(linearizations.size() <= kManyObservations);
+  assert(linearizations.size() <= kMaxObservations);
   rows_ = 0;
   for (const LinearizedObservation& linearization : linearizations) {
-    P.project(layout.touched(linearization, linearization.rows), &W_[rows_ * ld_], ld_);
+    P.project(layout.jacobian(linearization, linearization.rows), &W_[rows_ * ld_], ld_);
     nu_.segment(static_cast<int>(rows_), linearization.rows) = linearization.nu.head(linearization.rows);
     rows_ += static_cast<std::size_t>(linearization.rows);
   }
   int column = 0;
   for (const LinearizedObservation& linearization : linearizations) {
-    const Touched H = layout.touched(linearization, linearization.rows);
+    const SparseJacobian H = layout.jacobian(linearization, linearization.rows);
     for (int i = column; i < static_cast<int>(rows_); ++i) {
       const double* c = &W_[static_cast<std::size_t>(i) * ld_];
       for (int r = 0; r < linearization.rows; ++r) {

@@ -46,8 +46,8 @@ using JointCovariance =
 class Update {
  public:
   /// Most observations, and measurement rows, that are taken at once.
-  static constexpr int kManyObservations = 32;
-  static constexpr std::size_t kMaxRows = 2 * kManyObservations;
+  static constexpr int kMaxObservations = 32;
+  static constexpr std::size_t kMaxRows = 2 * kMaxObservations;
 
   /// For states of up to `capacity` values; `threads` share what is large.
   Update(std::size_t capacity, int threads);

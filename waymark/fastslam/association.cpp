@@ -1,6 +1,5 @@
 #include "waymark/fastslam/association.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

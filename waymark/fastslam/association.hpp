@@ -61,13 +61,13 @@ class Association {
   };
 
   void begin_split() { choices_.clear(); }
-  /// Room for a ambiguous pair; nothing if there is none left.
+  /// Room for an ambiguous pair; null if there is none left.
   Choice* offer(int observation, int landmark, double range_m, double existence);
   /// The same for the choice that an observation is of nothing known.
   Choice* offer_none(int observation, double range_m);
   [[nodiscard]] std::span<const Choice> choices() const { return choices_; }
   /// Every particle chooses among the offers, whose columns are filled: greedily by score, one to one, and
-  /// none for an observation that is left over. Touched landmarks that it does not have are not for it.
+  /// none for an observation that is left over. Gathered landmarks that it does not have are not for it.
   void split(const LandmarkStore& store);
   /// What the choice adds to the log weight of those that take it, besides log N(nu; 0, L) without its
   /// constant.

@@ -57,7 +57,8 @@ void Belief::resample(std::span<const std::int32_t> ancestors) {
 int Belief::add(const LandmarkRecord& record, kernels::LandmarkForm form, std::size_t modes,
                 const Observation& first) {
   landmarks.append(record);
-  records.push_back({.existence = record.existence.probability(), .range_alone_m = range_alone_m(first)});
+  records.push_back(
+      {.existence_probability = record.existence.probability(), .range_alone_m = range_alone_m(first)});
   return store.add(form, origin_m(), modes, record.identity == Identity::kUnknown);
 }
 

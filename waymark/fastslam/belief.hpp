@@ -22,8 +22,8 @@ namespace waymark::fastslam {
 
 /// What the set knows of a landmark besides its record in the table.
 struct ParticleRecord {
-  double existence = 1.0;      ///< probability that it exists; 0: it is to be forgotten
-  double range_alone_m = 0.0;  ///< when it was last observed; 0 if more than that was measured
+  double existence_probability = 1.0;  ///< 0: it is to be removed
+  double range_alone_m = 0.0;          ///< when it was last observed; 0 if more than that was measured
 };
 
 /// What is believed of robot and landmarks: the particles with the map of each, the motion that they have
@@ -72,7 +72,7 @@ struct Belief {
 
   /// From where kernels count positions.
   [[nodiscard]] Eigen::Vector2d origin_m() const { return estimate.T_world_robot.position(); }
-  /// A touched landmark, as kernels see it. Valid as LandmarkStore::view() is.
+  /// A gathered landmark, as kernels see it. Valid as LandmarkStore::view() is.
   [[nodiscard]] kernels::LandmarkView view(int landmark) const { return store.view(landmark, origin_m()); }
 
   /// Takes a sample of the particles as they are now, for compare().

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "waymark/core/angle.hpp"
 #include "waymark/fastslam/particle_step.hpp"
@@ -27,33 +26,30 @@ EnkfUpdate::EnkfUpdate(ParticleBlocks& blocks)
       step_(blocks.capacity()),
       values_(blocks.capacity()) {}
 
-void EnkfUpdate::take_in(const kernels::LandmarkObservation& observation, bool bearing, double variance,
-                         double information_weight, const kernels::Increment& increment,
-                         const Eigen::Vector2d& origin_m, Particles& particles, RangeCalibration& calibration,
-                         LandmarkStore& store) {
-  list_innovations(observation, bearing, increment, origin_m, particles);
-  noise_ = std::max(variance - innovations_.variance, kMinNoise * variance) / information_weight;
+void EnkfUpdate::assimilate(const ScalarObservation& z, Belief& belief) {
+  list_innovations(z, belief);
+  noise_ = std::max(z.variance - innovations_.variance, kMinNoise * z.variance) / z.information_weight;
   const bool is_telling = innovations_.effective >= kMinEffective && innovations_.variance > 0.0;
   if (!is_telling) return;
-  const kernels::MovingPoses poses = particles.moving();
+  const kernels::MovingPoses poses = belief.particles.moving();
   move_values(poses.x_m, false);
   move_values(poses.y_m, false);
   move_values(poses.theta_rad, true);
-  if (calibration.is_estimated()) {
-    move_column(calibration.scale(), nullptr);
-    move_column(calibration.offset_m(), nullptr);
-    calibration.refresh();
+  if (belief.calibration.is_estimated()) {
+    move_column(belief.calibration.scale(), nullptr);
+    move_column(belief.calibration.offset_m(), nullptr);
+    belief.calibration.refresh();
   }
-  for (int k = 0; k < store.size(); ++k) {
-    store.touch(k);
-    move_landmark(store.view(k, origin_m));
+  for (int k = 0; k < belief.store.size(); ++k) {
+    belief.store.gather(k);
+    move_landmark(belief.view(k));
   }
 }
 
-void EnkfUpdate::list_innovations(const kernels::LandmarkObservation& observation, bool bearing,
-                                  const kernels::Increment& increment, const Eigen::Vector2d& origin_m,
-                                  const Particles& particles) {
-  const std::span<const double> weights = particles.weights();
+void EnkfUpdate::list_innovations(const ScalarObservation& z, const Belief& belief) {
+  const std::span<const double> weights = belief.particles.weights();
+  const kernels::Increment increment = increment_of(belief.pending);
+  const Eigen::Vector2d origin_m = belief.origin_m();
   std::transform(weights.begin(), weights.end(), weight_.data(),
                  [](double w) { return static_cast<float>(w); });
   std::fill(weight_.data() + weights.size(), weight_.data() + weight_.size(), 0.0F);
@@ -61,14 +57,15 @@ void EnkfUpdate::list_innovations(const kernels::LandmarkObservation& observatio
   kernels::About about;
   const auto list = [&](std::size_t begin, std::size_t end) {
     BlockScratch scratch;
-    kernels::load_poses(particles.world(begin), origin_m.x(), origin_m.y(), scratch.robots(), end - begin);
-    float* const range = bearing ? values_.data() + begin : delta_.data() + begin;
-    float* const angle = bearing ? delta_.data() + begin : values_.data() + begin;
-    kernels::list_innovations(observation, increment, scratch.robots(), about, range, angle,
+    kernels::load_poses(belief.particles.world(begin), origin_m.x(), origin_m.y(), scratch.robots(),
+                        end - begin);
+    float* const range = z.is_bearing ? values_.data() + begin : delta_.data() + begin;
+    float* const angle = z.is_bearing ? delta_.data() + begin : values_.data() + begin;
+    kernels::list_innovations(z.observation, increment, scratch.robots(), about, range, angle,
                               {begin, end - begin});
   };
   list(0, 1);
-  (bearing ? about.bearing : about.range) = delta_[0];
+  (z.is_bearing ? about.bearing : about.range) = delta_[0];
   const auto base = static_cast<double>(delta_[0]);
   const auto sums = blocks_.sum([&](std::size_t begin, std::size_t end) {
     list(begin, end);

@@ -1,13 +1,19 @@
 #pragma once
 
 #include "waymark/core/aligned_array.hpp"
-#include "waymark/fastslam/landmark_store.hpp"
+#include "waymark/fastslam/belief.hpp"
 #include "waymark/fastslam/particle_blocks.hpp"
-#include "waymark/fastslam/particles.hpp"
-#include "waymark/fastslam/range_calibration.hpp"
 #include "waymark/kernels/particle_observations.hpp"
 
 namespace waymark::fastslam {
+
+/// One number of an observation: its range or its bearing.
+struct ScalarObservation {
+  kernels::LandmarkObservation observation;
+  bool is_bearing = false;
+  double variance = 0.0;            ///< of the innovation over the set, the spread of the particles included
+  double information_weight = 1.0;  ///< power of its likelihood
+};
 
 /// Lets an observation move particles instead of weighing them: the ensemble Kalman filter's half of the
 /// ensemble Kalman particle filter (Frei and Kuensch 2013).
@@ -23,16 +29,12 @@ namespace waymark::fastslam {
 /// chance is damped: with c its square, K is multiplied by 1 - (1 - c) / ((N_eff - 2) c), at least 0.
 class EnkfUpdate {
  public:
+  /// `blocks`, those of the belief, must outlive it.
   explicit EnkfUpdate(ParticleBlocks& blocks);
 
-  /// Takes in one number of an observation, its range or its bearing, whose innovation has this variance over
-  /// the set, what particles disagree on included; `information_weight` is the power of its likelihood.
-  /// `increment` is still to be drawn. Of several hypotheses the mean innovation counts. Touches every
-  /// landmark: O(N landmarks).
-  void take_in(const kernels::LandmarkObservation& observation, bool bearing, double variance,
-               double information_weight, const kernels::Increment& increment,
-               const Eigen::Vector2d& origin_m, Particles& particles, RangeCalibration& calibration,
-               LandmarkStore& store);
+  /// Assimilates the number, which is expected from where the pending motion ends: particles, calibration and
+  /// maps move. Of several hypotheses the mean innovation counts. Gathers every landmark: O(N landmarks).
+  void assimilate(const ScalarObservation& z, Belief& belief);
 
  private:
   /// The innovations of all particles.
@@ -43,9 +45,7 @@ class EnkfUpdate {
     double unbiased = 1.0;   ///< factor that makes weighted sample moments unbiased
   };
 
-  void list_innovations(const kernels::LandmarkObservation& observation, bool bearing,
-                        const kernels::Increment& increment, const Eigen::Vector2d& origin_m,
-                        const Particles& particles);
+  void list_innovations(const ScalarObservation& z, const Belief& belief);
   [[nodiscard]] double gain_of(const float* values);
   void move_values(double* values, bool is_angle);
   void move_landmark(const kernels::LandmarkView& landmark);

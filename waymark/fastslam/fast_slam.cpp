@@ -1,7 +1,5 @@
 #include "waymark/fastslam/fast_slam.hpp"
 
-#include <algorithm>
-
 #include "waymark/fastslam/landmark_forms.hpp"
 #include "waymark/fastslam/map_summary.hpp"
 
@@ -173,7 +171,7 @@ void FastSlam::accept(std::size_t index) {
 }
 
 void FastSlam::accept(const fastslam::ViewEdge& edge) {
-  belief_.store.touch(edge.landmark);
+  belief_.store.gather(edge.landmark);
   kernels::LandmarkObservation landmark_observation = edge.observation;
   landmark_observation.landmark = belief_.view(edge.landmark);
   belief_.load_sample();

@@ -37,10 +37,9 @@ namespace waymark {
 ///
 /// Robust where the plain filter starves:
 /// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
-/// moves them
-///   instead (fastslam::ScanUpdate).
-/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether
-///   the robot or a landmark is to blame for those that are is what FaultIsolation tells.
+///   moves them instead (fastslam::ScanUpdate).
+/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether the
+///   robot or a landmark is to blame for those that are is what FaultIsolation tells.
 /// * Weights never collapse onto a few particles (fastslam::AdaptiveResampling).
 /// * The pose and its covariance are taken after weighting and before resampling.
 /// * A robot that stands still is neither predicted nor resampled.
@@ -64,8 +63,6 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return belief_.calibration; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
-  /// How often an observation moved the particles instead of weighing them.
-  [[nodiscard]] std::int64_t enkf_updates() const { return update_.enkf_updates(); }
   [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }

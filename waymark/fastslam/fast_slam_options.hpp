@@ -15,21 +15,14 @@ enum class ProposalKind {
   kObservations  ///< the odometry and what is seen now (FastSLAM 2.0, Montemerlo et al. 2003)
 };
 
-/// How a landmark begins of which one observation does not say where it is.
-enum class LandmarkStart {
-  kAnchored,  ///< as all that the observation allows: a ray of unknown depth, a ring of unknown direction
-  kGuess  ///< each particle guesses a point on the ray within the sensor's range, on the arc within its view
-};
-
 struct FastSlamOptions {
   ProposalKind proposal = ProposalKind::kObservations;
-  LandmarkStart init = LandmarkStart::kAnchored;
   int particles = 150;
   double resample_below = 0.5;  ///< resample when N_eff falls below this part of the particles
   double temper_below = 0.1;    ///< flatten weights when N_eff would fall below this part of the particles
   double enkf_above = 0.01;     ///< move 100 particles where expectations vary by more of their noise
   double information_distance_m =
-      1.0;  ///< way between two observations of a landmark that makes the second one informative
+      1.0;  ///< distance between two observations of a landmark that makes the second informative
   double noise_inflation = 1.0;  ///< on the standard deviations of observations
   int capacity = 1000;           ///< most landmarks in the map
   GateOptions gate;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
 #include "waymark/core/aligned_array.hpp"

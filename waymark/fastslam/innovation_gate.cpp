@@ -7,7 +7,7 @@ namespace waymark::fastslam {
 void InnovationGate::judge(std::size_t index, Scan& scan, Belief& belief) const {
   const int landmark = scan.landmarks[index];
   const Observation& observation = scan.observations[index];
-  belief.store.touch(landmark);
+  belief.store.gather(landmark);
   scan.moments[index] = compare(observation, landmark, belief);
   const Eigen::Vector2d& nu = scan.moments[index].mean;
   const Eigen::Matrix2d S = scan.moments[index].covariance();

@@ -17,10 +17,10 @@ class InnovationGate {
   InnovationGate(const GateOptions& options, const SensorModel& model) : gate_(options), model_(model) {}
 
   /// Compares one with the landmark that was found for it, and says what becomes of it: the moments and the
-  /// innovation of the scan. Needs Belief::load_sample(), touches the landmark.
+  /// innovation of the scan. Needs Belief::load_sample(), gathers the landmark.
   void judge(std::size_t index, Scan& scan, Belief& belief) const;
 
-  /// The innovation of an observation against a touched landmark. Needs Belief::load_sample().
+  /// The innovation of an observation against a gathered landmark. Needs Belief::load_sample().
   [[nodiscard]] InnovationMoments compare(const Observation& observation, int landmark,
                                           Belief& belief) const {
     return belief.compare(model_.landmark_observation(observation, landmark, belief));

@@ -7,7 +7,7 @@
 
 #include "waymark/core/angle.hpp"
 #include "waymark/fastslam/narrow.hpp"
-#include "waymark/models/observation_models.hpp"
+#include "waymark/fastslam/particle_step.hpp"
 
 namespace waymark::fastslam {
 namespace {
@@ -33,7 +33,7 @@ constexpr double kMaxLimitedRatio = 100.0;
 // What was measured may be wrong by so many standard deviations.
 constexpr double kMargin = 3.0;
 // No landmark is nearer than this to a sensor whose limits do not say.
-constexpr double kLeastDepth_m = 0.1;
+constexpr double kMinRayDepth_m = 0.1;
 // Particles of so little weight together do not hinder a landmark from changing its form.
 constexpr double kExceptions = 0.01;
 constexpr float kPointSigmaPhi_rad = 0.1F;
@@ -201,15 +201,6 @@ Eigen::Vector2d direction_of(const LandmarkMeasurement& seen, const LandmarkSens
   return Pose2{0.0, 0.0, -to_radians(sensor.yaw_deg)} * Eigen::Vector2d(seen.cos_bearing, seen.sin_bearing);
 }
 
-/// The landmark at (range, bearing) from one particle's sensor, as unsure as R in the frame of its ray.
-ModeNumbers guessed_point(const Pose2& T_world_sensor, const Eigen::Vector2d& origin_m, const RangeBearing& z,
-                          const Eigen::Vector2d& R) {
-  const auto [p, G_pose, G] = RangeBearingModel::locate(T_world_sensor, {}, z);
-  const Eigen::Vector2f mean = (p - origin_m).cast<float>();
-  const Eigen::Matrix2f Sigma = (G * R.asDiagonal() * G.transpose()).cast<float>();
-  return {mean.x(), mean.y(), Sigma(0, 0), Sigma(0, 1), Sigma(1, 1)};
-}
-
 /// What is likely of a number between two limits, by moments of pieces: each piece a hypothesis.
 class Pieces {
  public:
@@ -256,7 +247,7 @@ class Pieces {
 FirstForm first_ray(const LandmarkMeasurement& seen, const LandmarkSensor& sensor,
                     const ViewHistory& history) {
   constexpr double kRatio = (1.0 + kDepthSigma) / (1.0 - kDepthSigma);
-  const double nearest_m = std::max(sensor.min_range_m, kLeastDepth_m);
+  const double nearest_m = std::max(sensor.min_range_m, kMinRayDepth_m);
   const double farthest_m = std::max(sensor.max_range_m, 1.01 * nearest_m);
   const double decades = std::log(farthest_m / nearest_m);
   const bool is_limited = farthest_m / nearest_m < kMaxLimitedRatio;
@@ -310,34 +301,6 @@ FirstForm first_form(const kernels::LandmarkMeasurement& seen, const LandmarkSen
   if (seen.kind == ObservationKind::kRangeBearing) return {};
   return seen.kind == ObservationKind::kBearing ? first_ray(seen, sensor, history)
                                                 : first_ring(seen, sensor, history);
-}
-
-void place_by_guess(LandmarkStore& store, int landmark, const kernels::LandmarkMeasurement& seen,
-                    const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
-                    ParticleBlocks& blocks) {
-  const LandmarkView view = store.view(landmark, {0.0, 0.0});
-  const Eigen::Vector2d origin_m(view.offset_x, view.offset_y);
-  const bool draws_range = seen.kind == ObservationKind::kBearing;
-  const double half_view_rad = to_radians(0.5 * sensor.field_of_view_deg);
-  const double low = draws_range ? sensor.min_range_m : -half_view_rad;
-  const double high = draws_range ? sensor.max_range_m : half_view_rad;
-  const double variance = (high - low) * (high - low) / 12.0;
-  const Eigen::Vector2d R =
-      draws_range ? Eigen::Vector2d(variance, seen.R_bb) : Eigen::Vector2d(seen.R_rr, variance);
-  // The measured direction includes the sensor's yaw.
-  const double bearing_rad =
-      wrap_angle(std::atan2(static_cast<double>(seen.sin_bearing), static_cast<double>(seen.cos_bearing)) -
-                 to_radians(sensor.yaw_deg));
-  blocks.run([&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const double drawn =
-          RandomStream(key.seed, key.purpose, key.step, static_cast<std::uint32_t>(i)).uniform(low, high);
-      const RangeBearing z{draws_range ? drawn : static_cast<double>(seen.range),
-                           draws_range ? bearing_rad : drawn};
-      const Pose2 T_world_sensor = particles.pose(static_cast<int>(i)) * sensor.T_robot_sensor();
-      set_numbers(view.modes[0], i, guessed_point(T_world_sensor, origin_m, z, R));
-    }
-  });
 }
 
 bool can_take(LandmarkForm form, ObservationKind kind) {

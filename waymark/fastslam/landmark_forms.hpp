@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 
 #include "waymark/fastslam/landmark_store.hpp"
-#include "waymark/fastslam/particle_step.hpp"
+#include "waymark/fastslam/particle_blocks.hpp"
 #include "waymark/fastslam/particles.hpp"
 #include "waymark/fastslam/view_history.hpp"
 #include "waymark/kernels/particle_observations.hpp"
@@ -24,12 +24,6 @@ struct FirstForm {
 /// et al. 2008 and Djugash and Singh 2008). Only where it can have been out of view until now.
 [[nodiscard]] FirstForm first_form(const kernels::LandmarkMeasurement& seen, const LandmarkSensor& sensor,
                                    const ViewHistory& history);
-
-/// A point that each particle draws: on the ray within the sensor's limits where only the bearing was
-/// measured, on the arc within its field of view where only the range was; as unsure as the draw.
-void place_by_guess(LandmarkStore& store, int landmark, const kernels::LandmarkMeasurement& seen,
-                    const LandmarkSensor& sensor, const Particles& particles, const StreamKey& key,
-                    ParticleBlocks& blocks);
 
 /// Whether a landmark of such a form can be updated by such an observation.
 [[nodiscard]] bool can_take(kernels::LandmarkForm form, kernels::ObservationKind kind);

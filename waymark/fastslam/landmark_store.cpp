@@ -42,7 +42,7 @@ int LandmarkStore::add(LandmarkForm form, const Eigen::Vector2d& origin_m, std::
   landmarks_.push_back(std::move(landmark));
   spare_modes_.reserve(landmarks_.capacity());
   ++generations_[present_].landmarks;
-  list_columns(landmarks_.back());  // room for the list is taken here, not when the landmark is touched
+  list_columns(landmarks_.back());  // room for the list is taken here, not when the landmark is gathered
   pool_.reserve(kColumnsAtOnce);
   return size() - 1;
 }
@@ -83,7 +83,7 @@ void LandmarkStore::gather_columns(const std::int32_t* places) {
   }
 }
 
-void LandmarkStore::touch(int landmark) {
+void LandmarkStore::gather(int landmark) {
   if (of(landmark).generation != present_) move_to_present(of(landmark));
 }
 

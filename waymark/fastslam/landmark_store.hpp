@@ -16,9 +16,9 @@ namespace waymark::fastslam {
 
 /// The maps of all particles, landmark by landmark. Resampling copies no landmark: it only notes which place
 /// of the old generation each particle's map now stands in, and a landmark is brought into the present order
-/// when it is next touched. The result equals deep copies of the maps bit for bit.
+/// when it is next used. The result equals deep copies of the maps bit for bit.
 ///
-/// Costs for N particles: touch() copies a landmark's columns if the set was resampled since the last touch,
+/// Costs for N particles: gather() copies a landmark's columns if the set was resampled since the last time,
 /// else nothing. resample() at most kGenerations N, whatever the size of the map; when the generations run
 /// out, young ones are folded into the present one before old ones, after Bentley and Saxe (1980): a landmark
 /// that nobody looks at is moved O(log landmarks) times, not once per so many resamplings. add() may take
@@ -39,16 +39,16 @@ class LandmarkStore {
   void remove(int landmark);
 
   /// Brings a landmark into the present order of particles.
-  void touch(int landmark);
+  void gather(int landmark);
 
-  /// A touched landmark, for kernels that count positions from `origin_m`. Valid until it is touched after a
-  /// resampling, or changed.
+  /// A gathered landmark, for kernels that count positions from `origin_m`. Valid until it is gathered after
+  /// a resampling, or changed.
   [[nodiscard]] kernels::LandmarkView view(int landmark, const Eigen::Vector2d& origin_m) const;
 
   [[nodiscard]] kernels::LandmarkForm form(int landmark) const { return of(landmark).form; }
   [[nodiscard]] std::size_t modes(int landmark) const { return of(landmark).modes.size(); }
 
-  /// The log-odds that a touched landmark exists, one per particle (kernels/particle_existence.hpp); null
+  /// The log-odds that a gathered landmark exists, one per particle (kernels/particle_existence.hpp); null
   /// where that is not in doubt. Valid as a view is.
   [[nodiscard]] float* existence(int landmark) const { return of(landmark).existence; }
 
@@ -61,7 +61,8 @@ class LandmarkStore {
   /// Particle i takes over the map of ancestors[i]; there are as many particles as ancestors from now on.
   void resample(std::span<const std::int32_t> ancestors);
 
-  /// What one particle knows of a landmark, without touching: hypotheses as one Gaussian of the same moments.
+  /// What one particle knows of a landmark, without gathering it: hypotheses as one Gaussian of the same
+  /// moments.
   [[nodiscard]] PointGaussian at(int landmark, int particle) const;
 
  private:

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "waymark/association/association_options.hpp"
-
 namespace waymark::fastslam {
 namespace {
 
@@ -14,13 +12,18 @@ using kernels::LandmarkMeasurement;
 // Whether a landmark may become a point is asked at every so many observations of it.
 constexpr int kObservationsPerRefinement = 4;
 
+/// Observations whose new landmarks are initialised after those of the particles' choices.
+int count_unambiguous_new(const Scan& scan, const ParticleMatcher& matcher) {
+  int count = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    count += scan.is(i, Outcome::kAdded) && !matcher.is_ambiguous(i) ? 1 : 0;
+  return count;
+}
+
 }  // namespace
 
 MapManagement::MapManagement(const FastSlamOptions& options, const SensorModel& model)
-    : model_(model),
-      start_(options.init),
-      capacity_(options.capacity),
-      confirms_at_once_(options.unknown && options.unknown->confirmed_log_odds <= 0.0) {}
+    : model_(model), capacity_(options.capacity) {}
 
 void MapManagement::initialise(std::size_t index, Scan& scan, const ViewHistory& history, Belief& belief) {
   const Observation& observation = scan.observations[index];
@@ -33,15 +36,9 @@ void MapManagement::initialise(std::size_t index, Scan& scan, const ViewHistory&
 void MapManagement::initialise_named(const Observation& observation, const ViewHistory& history,
                                      Belief& belief) {
   const LandmarkMeasurement z = seen_first(observation, belief);
-  const bool guess = start_ == LandmarkStart::kGuess && z.kind != kernels::ObservationKind::kRangeBearing;
-  const FirstForm first = guess ? FirstForm{} : first_form(z, model_.sensor(), history);
+  const FirstForm first = first_form(z, model_.sensor(), history);
   const int landmark = belief.add({.id = *observation.id}, first.form, first.modes, observation);
-  if (guess)
-    place_by_guess(belief.store, landmark, z, model_.sensor(), belief.particles,
-                   {belief.seed, StreamPurpose::kInitialisation, static_cast<std::uint64_t>(landmark) + 1},
-                   belief.blocks);
-  else
-    place(landmark, z, first.guess, belief);
+  place(landmark, z, first.guess, belief);
   if (belief.store.form(landmark) != LandmarkForm::kPoint) unresolved_.push_back(landmark);
 }
 
@@ -50,18 +47,22 @@ LandmarkId MapManagement::initialise_without_identity(const Observation& observa
   const LandmarkId id = belief.landmarks.unused_id();
   const int landmark = belief.add({.id = id, .identity = Identity::kUnknown, .existence = {}},
                                   LandmarkForm::kPoint, 1, observation);
-  if (confirms_at_once_) belief.landmarks.existence(landmark).confirm();
   place(landmark, seen_first(observation, belief), {}, belief);
   std::fill_n(belief.store.existence(landmark), belief.particles.count(), 0.0F);
   return id;
 }
 
 void MapManagement::initialise_choices(Scan& scan, const ParticleMatcher& matcher, Belief& belief) {
+  const int reserved = count_unambiguous_new(scan, matcher);
   for (const Association::Choice& choice : matcher.choices()) {
-    if (choice.landmark != GreedyMatch::kNothing || room(belief) <= 0) continue;
+    if (choice.landmark != GreedyMatch::kNothing) continue;
     const std::span<const float> takers(choice.column, as_index(belief.particles.count()));
     if (std::ranges::none_of(takers, [](float t) { return t != 0.0F; })) continue;
     const auto index = as_index(choice.observation);
+    if (room(belief) <= reserved) {
+      if (scan.is(index, Outcome::kAdded)) scan.innovations[index].outcome = Outcome::kMapFull;
+      continue;
+    }
     const LandmarkId id = initialise_without_identity(scan.observations[index], belief);
     if (scan.landmarks[index] == Scan::kNone) scan.innovations[index].landmark = id;
     float* const log_odds = belief.store.existence(belief.store.size() - 1);
@@ -70,7 +71,7 @@ void MapManagement::initialise_choices(Scan& scan, const ParticleMatcher& matche
   }
 }
 
-/// After so long a way that nothing which lasts is left of an earlier error.
+/// After a distance at which nothing is left of the bias of an earlier observation.
 LandmarkMeasurement MapManagement::seen_first(const Observation& observation, const Belief& belief) const {
   return model_.seen(observation, std::numeric_limits<double>::infinity(), belief.calibration.columns());
 }
@@ -88,7 +89,7 @@ void MapManagement::miss(Belief& belief) const {
   if (!(detected > 0.0)) return;
   for (const int k : unresolved_) {
     if (belief.store.modes(k) == 1 || belief.landmarks.is_claimed(k)) continue;
-    belief.store.touch(k);
+    belief.store.gather(k);
     const kernels::LandmarkObservation landmark_observation{{}, model_.mount(), belief.view(k)};
     belief.run_with_sensors(model_.mount(), [&](const auto& sensors, const auto& range) {
       kernels::miss_modes(landmark_observation, detected, sensors, range);
@@ -99,7 +100,7 @@ void MapManagement::miss(Belief& belief) const {
 void MapManagement::refine(Belief& belief) {
   for (const int k : unresolved_) {
     if (belief.store.modes(k) > 1) {
-      belief.store.touch(k);
+      belief.store.gather(k);
       tidy_modes(belief.store, k, belief.particles, belief.blocks);
     }
     const bool is_due = belief.landmarks[k].observations % kObservationsPerRefinement == 0;
@@ -111,7 +112,7 @@ void MapManagement::refine(Belief& belief) {
 
 void MapManagement::delete_false_tracks(Belief& belief) {
   for (int k = belief.store.size() - 1; k >= 0; --k) {
-    if (belief.records[as_index(k)].existence > 0.0 && !belief.landmarks.is_stale(k)) continue;
+    if (belief.records[as_index(k)].existence_probability > 0.0 && !belief.landmarks.is_stale(k)) continue;
     forget(k, belief);
   }
 }

@@ -14,8 +14,8 @@
 
 namespace waymark::fastslam {
 
-/// Which landmarks the map has: initialises them, lets their hypotheses go as observations decide, and
-/// forgets those that turned out not to exist.
+/// Map management: initialises landmarks, drops their hypotheses as observations decide, and deletes false
+/// tracks.
 class MapManagement {
  public:
   MapManagement(const FastSlamOptions& options, const SensorModel& model);
@@ -26,7 +26,8 @@ class MapManagement {
   /// Initialises the landmark of an observation that is new (Outcome::kAdded) to all particles, and names it
   /// where the observation does not. O(N).
   void initialise(std::size_t index, Scan& scan, const ViewHistory& history, Belief& belief);
-  /// Initialises what is new to those particles only that chose so.
+  /// Initialises what is new to those particles only that chose so. Keeps room for the observations that are
+  /// new to all particles; what then has no room becomes Outcome::kMapFull.
   void initialise_choices(Scan& scan, const ParticleMatcher& matcher, Belief& belief);
 
   /// Hypotheses that were expected in this scan, of landmarks that were not seen, become less likely.
@@ -49,9 +50,7 @@ class MapManagement {
              Belief& belief) const;
 
   SensorModel model_;
-  LandmarkStart start_;
   int capacity_;
-  bool confirms_at_once_;        // landmarks without identity
   std::vector<int> unresolved_;  // rays and rings
 };
 

@@ -38,11 +38,11 @@ void ParticleExistence::update(const Scan& scan, const ParticleMatcher& matcher,
                                Belief& belief) {
   find_landmarks_in_reach(matcher, reach, belief);
   for (const int k : scan.landmarks)
-    if (k != Scan::kNone && belief.landmarks.is_claimed(k)) note_observation(k, nullptr, belief);
-  note_choices(matcher, belief);
+    if (k != Scan::kNone && belief.landmarks.is_claimed(k)) update_observed(k, belief);
+  update_chosen(matcher, belief);
   for (const int k : in_reach_)
-    if (!belief.landmarks.is_claimed(k)) note_observation(k, nobody_.data(), belief);
-  for (const int k : in_reach_) note_support(k, belief);
+    if (!belief.landmarks.is_claimed(k)) update_observed_by(nobody_.data(), k, belief);
+  for (const int k : in_reach_) record_support(k, belief);
 }
 
 void ParticleExistence::find_landmarks_in_reach(const ParticleMatcher& matcher, double reach,
@@ -57,7 +57,7 @@ void ParticleExistence::find_landmarks_in_reach(const ParticleMatcher& matcher, 
 }
 
 /// Particles may have taken different observations for the same landmark.
-void ParticleExistence::note_choices(const ParticleMatcher& matcher, Belief& belief) {
+void ParticleExistence::update_chosen(const ParticleMatcher& matcher, Belief& belief) {
   const auto choices = matcher.choices();
   for (std::size_t c = 0; c < choices.size(); ++c) {
     const int landmark = choices[c].landmark;
@@ -67,36 +67,43 @@ void ParticleExistence::note_choices(const ParticleMatcher& matcher, Belief& bel
     for (std::size_t other = c + 1; other < choices.size(); ++other)
       if (choices[other].landmark == landmark)
         for (int i = 0; i < belief.particles.count(); ++i) choices[c].column[i] += choices[other].column[i];
-    note_observation(landmark, choices[c].column, belief);
+    update_observed_by(choices[c].column, landmark, belief);
   }
 }
 
-/// `takers` (all: null) saw it; the others should have if they have it in view.
-void ParticleExistence::note_observation(int landmark, const float* takers, Belief& belief) {
-  belief.store.touch(landmark);
+void ParticleExistence::update_observed(int landmark, Belief& belief) {
+  belief.store.gather(landmark);
   float* const log_odds = belief.store.existence(landmark);
   if (log_odds == nullptr) return;
-  const Eigen::Vector2d origin_m = belief.origin_m();
-  const auto missed = static_cast<float>(model_.missed());
   belief.blocks.run([&](std::size_t begin, std::size_t end) {
-    alignas(64) float before[ParticleBlocks::kBlockSize];
-    std::copy(log_odds + begin, log_odds + end, before);
-    if (takers != nullptr) {
-      BlockScratch scratch;
-      const kernels::ParticleRange range{begin, end - begin};
-      const auto sensors = load_sensors(belief.particles, view_.mount, origin_m, range, scratch);
-      kernels::miss_landmark(belief.store.view(landmark, origin_m), sensors, view_, missed, log_odds, range);
-    }
     for (std::size_t i = begin; i < end; ++i)
-      if (takers == nullptr || takers[i] != 0.0F)
-        log_odds[i] = static_cast<float>(model_.after_observation(static_cast<double>(before[i - begin])));
+      log_odds[i] = static_cast<float>(model_.after_observation(static_cast<double>(log_odds[i])));
   });
 }
 
-void ParticleExistence::note_support(int landmark, Belief& belief) const {
+/// The `takers` observed it; the others missed it if they have it in view.
+void ParticleExistence::update_observed_by(const float* takers, int landmark, Belief& belief) {
+  belief.store.gather(landmark);
+  float* const log_odds = belief.store.existence(landmark);
+  if (log_odds == nullptr) return;
+  const auto missed = static_cast<float>(model_.missed());
+  const kernels::LandmarkView view = belief.view(landmark);
+  belief.run_with_sensors(view_.mount, [&](const auto& sensors, const kernels::ParticleRange& range) {
+    alignas(64) float before[ParticleBlocks::kBlockSize];
+    std::copy_n(log_odds + range.begin, range.count, before);
+    kernels::miss_landmark(view, sensors, view_, missed, log_odds, range);
+    for (std::size_t i = 0; i < range.count; ++i)
+      if (takers[range.begin + i] != 0.0F)
+        log_odds[range.begin + i] =
+            static_cast<float>(model_.after_observation(static_cast<double>(before[i])));
+  });
+}
+
+void ParticleExistence::record_support(int landmark, Belief& belief) const {
   const Support held =
-      support(belief.store.existence(landmark), model_.confirmed(), belief.particles, belief.blocks);
-  belief.records[as_index(landmark)].existence = held.present < kMinSupport ? 0.0 : held.probability;
+      support(belief.store.existence(landmark), kConfirmedLogOdds, belief.particles, belief.blocks);
+  belief.records[as_index(landmark)].existence_probability =
+      held.present < kMinSupport ? 0.0 : held.probability;
   if (held.confirmed > 0.5) belief.landmarks.existence(landmark).confirm();
 }
 

@@ -5,16 +5,12 @@
 
 #include "waymark/core/gaussian.hpp"
 #include "waymark/kernels/particle_likelihood.hpp"
+#include "waymark/models/observation_models.hpp"
 
 namespace waymark::fastslam {
 namespace {
 
 double range_m(const Observation& observation) { return std::get<RangeBearing>(observation.value).range_m; }
-
-Eigen::Vector2d in_sensor(const Observation& observation) {
-  const auto& z = std::get<RangeBearing>(observation.value);
-  return z.range_m * Eigen::Vector2d(std::cos(z.bearing_rad), std::sin(z.bearing_rad));
-}
 
 int heaviest(std::span<const double> weights) {
   return static_cast<int>(std::max_element(weights.begin(), weights.end()) - weights.begin());
@@ -91,17 +87,18 @@ void ParticleMatcher::decide(Scan& scan, const InnovationGate& gate, int room, B
 void ParticleMatcher::find_candidates(std::size_t index, const Scan& scan, const InnovationGate& gate,
                                       const Pose2& T_world_sensor, Belief& belief) {
   const Observation& observation = scan.observations[index];
-  const Eigen::Vector2d p_world = T_world_sensor * in_sensor(observation);
+  const Eigen::Vector2d p_world =
+      T_world_sensor * position_in_sensor(std::get<RangeBearing>(observation.value));
   const double radius_m =
       candidate_radius_m(observation, model_.inflation(), gate.threshold(2), belief.pose().covariance);
   association_.visit_near(p_world, radius_m, [&](int k) {
     if (belief.landmarks.is_claimed(k)) return;
-    belief.store.touch(k);
+    belief.store.gather(k);
     const InnovationMoments moments = gate.compare(observation, k, belief);
     const auto nis = mahalanobis_squared<2>(moments.mean, moments.covariance());
     if (nis && *nis <= gate.threshold(2))
       association_.consider(static_cast<int>(index), k, moments, range_m(observation),
-                            belief.records[as_index(k)].existence);
+                            belief.records[as_index(k)].existence_probability);
   });
 }
 
@@ -136,10 +133,10 @@ void ParticleMatcher::offer_choices(std::size_t index, const Scan& scan, Belief&
   if (association_.offer_none(i, range_m(observation)) == nullptr) return;
   for (const ScoredPair& pair : association_.match().pairs()) {
     if (pair.observation != i || belief.landmarks.is_claimed(pair.landmark)) continue;
-    const double existence = belief.records[as_index(pair.landmark)].existence;
+    const double existence = belief.records[as_index(pair.landmark)].existence_probability;
     const auto* choice = association_.offer(i, pair.landmark, range_m(observation), existence);
     if (choice == nullptr) continue;
-    belief.store.touch(pair.landmark);
+    belief.store.gather(pair.landmark);
     list_likelihoods(model_.landmark_observation(observation, pair.landmark, belief), choice->column, belief);
   }
 }
@@ -159,11 +156,10 @@ void ParticleMatcher::list_likelihoods(const kernels::LandmarkObservation& landm
 
 /// All choices of one observation weigh with the same power, or the power and not the likelihood would
 /// choose.
-double ParticleMatcher::power(int landmark_observation, const ScanUpdate& update,
-                              const Belief& belief) const {
+double ParticleMatcher::power(int observation, const ScanUpdate& update, const Belief& belief) const {
   double least = 1.0;
   for (const Association::Choice& choice : choices())
-    if (choice.observation == landmark_observation && choice.landmark != GreedyMatch::kNothing)
+    if (choice.observation == observation && choice.landmark != GreedyMatch::kNothing)
       least = std::min(least, update.power(choice.landmark, belief));
   return least;
 }

@@ -59,7 +59,7 @@ class ParticleMatcher {
   void list_likelihoods(const kernels::LandmarkObservation& landmark_observation, float* column,
                         Belief& belief) const;
   void accept_choices(const Scan& scan, ScanUpdate& update, Belief& belief) const;
-  [[nodiscard]] double power(int landmark_observation, const ScanUpdate& update, const Belief& belief) const;
+  [[nodiscard]] double power(int observation, const ScanUpdate& update, const Belief& belief) const;
 
   Association association_;
   SensorModel model_;

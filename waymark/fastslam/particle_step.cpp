@@ -102,7 +102,7 @@ kernels::Increment increment_of(const Motion& motion) {
 void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& origin_m,
           std::span<const AcceptedObservation> observations, const StreamKey& key, ParticleBlocks& blocks) {
   const kernels::Increment increment = increment_of(motion);
-  const bool enkf_updates = !is_still(motion);
+  const bool moves = !is_still(motion);
   blocks.run([&](std::size_t begin, std::size_t end) {
     BlockScratch scratch;
     const ParticleRange range{begin, end - begin};
@@ -111,8 +111,8 @@ void step(Particles& particles, const Motion& motion, const Eigen::Vector2d& ori
     kernels::fill_increments(increment, scratch.increments(), range.count);
     for (const AcceptedObservation& each : observations)
       if (each.shapes_motion) condition_block(each, increment, log_weight, scratch, range);
-    if (enkf_updates) draw_block(particles, increment, key, scratch, range);  // Francisco (3)
-    update_block(observations, log_weight, scratch, range);                   // Francisco (4)
+    if (moves) draw_block(particles, increment, key, scratch, range);  // Francisco (3)
+    update_block(observations, log_weight, scratch, range);            // Francisco (4)
   });
 }
 

@@ -28,7 +28,7 @@ std::span<const std::int32_t> Resampling::choose_ancestors(std::span<const doubl
                                                            std::size_t count) {
   count_offspring(weights, u, count);
   list_vacant(count);
-  settle(count);
+  assign_ancestors(count);
   return {ancestors_.data(), count};
 }
 
@@ -95,7 +95,7 @@ void Resampling::list_vacant(std::size_t count) {
   for (std::size_t i = particles; i < count; ++i) vacant_[at++] = static_cast<std::int32_t>(i);
 }
 
-void Resampling::settle(std::size_t count) {
+void Resampling::assign_ancestors(std::size_t count) {
   blocks_.run([&](std::size_t begin, std::size_t end) {
     std::size_t at = before_[block_of(begin)].further;
     for (std::size_t i = begin; i < end; ++i) {

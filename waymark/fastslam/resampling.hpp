@@ -36,7 +36,7 @@ class Resampling {
 
   void count_offspring(std::span<const double> weights, double u, std::size_t count);
   void list_vacant(std::size_t count);
-  void settle(std::size_t count);
+  void assign_ancestors(std::size_t count);
   [[nodiscard]] bool keeps_place(std::size_t i, std::size_t count) const {
     return i < count && offspring_[i] > 0;
   }

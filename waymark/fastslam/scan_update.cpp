@@ -17,7 +17,7 @@ constexpr double kParticlesOfEnkfAbove = 100.0;
 ScanUpdate::ScanUpdate(const FastSlamOptions& options, ParticleBlocks& blocks)
     : weight_(options.information_distance_m),
       enkf_(blocks),
-      move_above_(options.enkf_above),
+      enkf_above_(options.enkf_above),
       shapes_motion_(options.proposal == ProposalKind::kObservations) {}
 
 void ScanUpdate::accept(const kernels::LandmarkObservation& observation, int landmark, double power,
@@ -36,16 +36,14 @@ void ScanUpdate::accept_by(const float* takers, const kernels::LandmarkObservati
 bool ScanUpdate::update_by_enkf(const kernels::LandmarkObservation& observation, double power,
                                 InnovationMoments moments, Belief& belief) {
   if (power < kMinPower) return false;
-  const double spread_above = move_above_ * belief.particles.count() / kParticlesOfEnkfAbove;
-  const kernels::Increment increment = increment_of(belief.pending);
+  const double spread_above = enkf_above_ * belief.particles.count() / kParticlesOfEnkfAbove;
   const ObservationKind kind = observation.seen.kind;
   const std::int64_t enkf_updates = enkf_updates_;
   for (int k = 0; k < dimension(kind); ++k) {
     if (!(power * moments.spread(k, k) > spread_above * moments.noise(k, k))) continue;
-    const bool bearing =
+    const bool is_bearing =
         kind != ObservationKind::kRange && (k == 1 || kind != ObservationKind::kRangeBearing);
-    enkf_.take_in(observation, bearing, moments.covariance()(k, k), power, increment, belief.origin_m(),
-                  belief.particles, belief.calibration, belief.store);
+    enkf_.assimilate({observation, is_bearing, moments.covariance()(k, k), power}, belief);
     ++enkf_updates_;
     belief.load_sample();
     moments = belief.compare(observation);

@@ -47,7 +47,7 @@ class ScanUpdate {
 
   InformationWeight weight_;
   EnkfUpdate enkf_;
-  double move_above_;
+  double enkf_above_;
   bool shapes_motion_;
   std::vector<AcceptedObservation> accepted_;
   std::int64_t enkf_updates_ = 0;

@@ -5,7 +5,6 @@
 
 #include <Eigen/LU>
 
-#include "waymark/fastslam/information_weight.hpp"
 #include "waymark/models/observation_models.hpp"
 
 namespace waymark::fastslam {
@@ -58,6 +57,10 @@ bool is_usable(const Observation& observation) {
   const bool has_range = *kind != ObservationKind::kBearing;
   return std::isfinite(static_cast<float>(z.range_m)) && std::isfinite(z.bearing_rad) &&
          (!has_range || z.range_m > kMinDistance_m) && is_positive_definite(*observation.covariance, *kind);
+}
+
+double bias_variance_factor(double travelled_since_m, double bias_distance_m) {
+  return 1.0 / std::tanh(std::max(travelled_since_m, kMinTravelled_m) / (2.0 * bias_distance_m));
 }
 
 SensorModel::SensorModel(const LandmarkSensor& sensor, double noise_inflation)

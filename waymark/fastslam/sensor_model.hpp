@@ -20,6 +20,14 @@ namespace waymark::fastslam {
 /// use, numbers that are finite as floats, and noise.
 [[nodiscard]] bool is_usable(const Observation& observation);
 
+/// Observations of a landmark that are nearer to each other than this are as good as one.
+inline constexpr double kMinTravelled_m = 1e-3;
+
+/// Ratio by which a Gauss-Markov bias counts for more than white noise of its variance. The bias decays by
+/// exp(-w / l) over a distance w, l = `bias_distance_m`. Observations a distance w apart then bring the
+/// information of independent ones of coth(w / (2 l)) times the variance.
+[[nodiscard]] double bias_variance_factor(double travelled_since_m, double bias_distance_m);
+
 /// What the observations of one sensor tell particles.
 class SensorModel {
  public:
@@ -33,13 +41,13 @@ class SensorModel {
   /// By how many times the variance of an observation is larger than it says.
   [[nodiscard]] double inflation() const { return inflation_; }
 
-  /// A usable observation, as unsure as it is after such a way since the last one of the same landmark. The
+  /// A usable observation, as unsure as it is at such a distance from the last one of the same landmark. The
   /// particles have no states for errors that outlive an observation: they count by what it brings anew, see
   /// bias_variance_factor().
   [[nodiscard]] kernels::LandmarkMeasurement seen(const Observation& observation, double travelled_since_m,
                                                   const kernels::RangeErrors& range_errors) const;
 
-  /// The same, of a touched landmark. Valid as LandmarkStore::view() is.
+  /// The same, of a gathered landmark. Valid as LandmarkStore::view() is.
   [[nodiscard]] kernels::LandmarkObservation landmark_observation(const Observation& observation,
                                                                   int landmark, const Belief& belief) const;
 

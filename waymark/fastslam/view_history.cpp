@@ -1,7 +1,6 @@
 #include "waymark/fastslam/view_history.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace waymark::fastslam {
 

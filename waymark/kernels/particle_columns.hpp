@@ -125,7 +125,7 @@ struct SensorMount {
   float sin_yaw = 0.0F;
   float half_view = 4.0F;  ///< half the field of view, rad; pi or more: it sees all round
   float min_rho = 1e-4F;   ///< one over the largest range, 1/m
-  float least_range = 0.0F;
+  float min_range = 0.0F;
 
   bool operator==(const SensorMount&) const = default;
 };

@@ -154,8 +154,8 @@ struct Measured2 {
 };
 
 template <class T>
-HWY_INLINE Measured2<T> measure_point(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
-                                  T oy) {
+HWY_INLINE Measured2<T> measure_point(const LandmarkMeasurement& z, T range, const Sensor<T>& from,
+                                      const Gaussian2<T>& m, T ox, T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T nu_t = ray.r * bearing_innovation(z, from, ray.ux, ray.uy);
   return {ray, range - ray.r, nu_t, T(z.R_rr), ray.r * T(z.R_rb), ray.r * ray.r * T(z.R_bb)};
@@ -185,27 +185,23 @@ struct Measured1 {
 
 template <class T>
 HWY_INLINE T landmark_variance(const Measured1<T>& measured, const Gaussian2<T>& m) {
-  return measured.h_a * measured.h_a * m.aa + T(2.0F) * measured.h_a * measured.h_b * m.ab + measured.h_b * measured.h_b * m.bb;
+  return measured.h_a * measured.h_a * m.aa + T(2.0F) * measured.h_a * measured.h_b * m.ab +
+         measured.h_b * measured.h_b * m.bb;
 }
 
 /// The range to a point: z = |d|, derivative by d its direction u.
 template <class T>
-HWY_INLINE Measured1<T> measure_range(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
-                               T oy) {
+HWY_INLINE Measured1<T> measure_range(const LandmarkMeasurement& z, T range, const Sensor<T>& from,
+                                      const Gaussian2<T>& m, T ox, T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
-  return {range - ray.r,
-          T(z.R_rr),
-          ray.ux,
-          ray.uy,
-          -ray.ux,
-          -ray.uy,
-          ray.ux * from.arm_y - ray.uy * from.arm_x};
+  return {
+      range - ray.r, T(z.R_rr), ray.ux, ray.uy, -ray.ux, -ray.uy, ray.ux * from.arm_y - ray.uy * from.arm_x};
 }
 
 /// The bearing of a point: derivative by d its perpendicular over its length.
 template <class T>
-HWY_INLINE Measured1<T> measure_bearing(const LandmarkMeasurement& z, const Sensor<T>& from, const Gaussian2<T>& m, T ox,
-                                 T oy) {
+HWY_INLINE Measured1<T> measure_bearing(const LandmarkMeasurement& z, const Sensor<T>& from,
+                                        const Gaussian2<T>& m, T ox, T oy) {
   const Ray<T> ray = ray_of(m.a + ox - from.x, m.b + oy - from.y);
   const T tx = -ray.uy * ray.inverse_r;
   const T ty = ray.ux * ray.inverse_r;
@@ -217,8 +213,8 @@ HWY_INLINE Measured1<T> measure_bearing(const LandmarkMeasurement& z, const Sens
 /// (cos phi, sin phi), a vector of the same direction as the landmark, and J_w = (-w_y, w_x) / |w|^2,
 /// d/d(phi, rho) = (J_w . (-sin phi, cos phi), J_w . (anchor - sensor)), d/d(position) = -rho J_w.
 template <class T>
-HWY_INLINE Measured1<T> measure_ray(const LandmarkMeasurement& z, const Sensor<T>& from, const Gaussian2<T>& m, T ax,
-                                   T ay) {
+HWY_INLINE Measured1<T> measure_ray(const LandmarkMeasurement& z, const Sensor<T>& from,
+                                    const Gaussian2<T>& m, T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const T qx = ax - from.x;
   const T qy = ay - from.y;
@@ -245,8 +241,8 @@ struct MeasuredRing {
 };
 
 template <class T>
-HWY_INLINE MeasuredRing<T> measure_ring(const LandmarkMeasurement& z, T range, const Sensor<T>& from, const Gaussian2<T>& m,
-                                        T ax, T ay) {
+HWY_INLINE MeasuredRing<T> measure_ring(const LandmarkMeasurement& z, T range, const Sensor<T>& from,
+                                        const Gaussian2<T>& m, T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
   return {{range - ray.r, T(z.R_rr), m.b * (ray.uy * phi.cos - ray.ux * phi.sin),
@@ -273,8 +269,8 @@ HWY_INLINE T edge_innovation(const SensorMount& mount, const Sensor<T>& from, co
 /// The edge of the view, for a landmark (phi, r) on a ring about its anchor: as the bearing of a point p =
 /// anchor + r (cos phi, sin phi), d/dp = (-u_y, u_x) / |p - sensor|.
 template <class T>
-HWY_INLINE Measured1<T> measure_edge(const LandmarkMeasurement& z, const SensorMount& mount, const Sensor<T>& from,
-                                 const Gaussian2<T>& m, T ax, T ay) {
+HWY_INLINE Measured1<T> measure_edge(const LandmarkMeasurement& z, const SensorMount& mount,
+                                     const Sensor<T>& from, const Gaussian2<T>& m, T ax, T ay) {
   const auto phi = sin_cos(m.a);
   const Ray<T> ray = ray_of(ax - from.x + m.b * phi.cos, ay - from.y + m.b * phi.sin);
   const T tx = -ray.uy * ray.inverse_r;
@@ -389,7 +385,7 @@ struct Conditioned {
   T log_likelihood;
 };
 
-/// The increment, given what one look adds (Montemerlo et al. 2003): with row g, P_g = P g^T and L = g P_g +
+/// The increment, given one observation (Montemerlo et al. 2003): with row g, P_g = P g^T and L = g P_g +
 /// Z, mu += P_g / L nu, P -= P_g P_g^T / L.
 template <class T>
 HWY_INLINE Conditioned<T> condition1(const Gaussian3<T>& d, const Column3<T>& g, T nu, T Z) {
@@ -403,7 +399,7 @@ HWY_INLINE Conditioned<T> condition1(const Gaussian3<T>& d, const Column3<T>& g,
           T(-0.5F) * (nu * f + logarithm(L))};  // Francisco (7)
 }
 
-/// The rows of a range-bearing look by the robot's increment.
+/// The derivatives of range and bearing with respect to the robot's increment, as rows.
 template <class T>
 struct Rows2 {
   Column3<T> a, t;
@@ -419,8 +415,9 @@ HWY_INLINE Rows2<T> rows_of(const Measured2<T>& l, const Sensor<T>& from, const 
 
 /// The covariance L of a range-bearing innovation when the increment is still open, in the frame of the ray.
 template <class T>
-HWY_INLINE RayCovariance<T> innovation_covariance(const Measured2<T>& l, const Gaussian2<T>& m, const Rows2<T>& g,
-                                                  const Column3<T>& p_a, const Column3<T>& p_t) {
+HWY_INLINE RayCovariance<T> innovation_covariance(const Measured2<T>& l, const Gaussian2<T>& m,
+                                                  const Rows2<T>& g, const Column3<T>& p_a,
+                                                  const Column3<T>& p_t) {
   const RayCovariance<T> S = along_ray(l, m);
   return {dot(g.a, p_a) + S.aa + l.R_aa, dot(g.a, p_t) + S.at + l.R_at, dot(g.t, p_t) + S.tt + l.R_tt};
 }

@@ -1,6 +1,5 @@
 #include "waymark/kernels/particle_observations.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -75,42 +74,42 @@ HWY_INLINE T anchor_y(const LandmarkView& landmark, std::size_t i) {
   return load<T>(landmark.anchor_y, i) + T(landmark.offset_y);
 }
 
-// The ways to look at a landmark of one hypothesis. Each is a type, so that loops over particles do not
+// The observation models of a landmark of one hypothesis. Each is a type, so that loops over particles do not
 // choose.
 struct AtPoint {
   template <class T>
-  static HWY_INLINE Measured2<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t i) {
+  static HWY_INLINE Measured2<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t i) {
     return measure_point(s.seen, range_of<T>(s.seen, i), from, m, T(s.landmark.offset_x),
                          T(s.landmark.offset_y));
   }
 };
 struct RangeOfPoint {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t i) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t i) {
     return measure_range(s.seen, range_of<T>(s.seen, i), from, m, T(s.landmark.offset_x),
                          T(s.landmark.offset_y));
   }
 };
 struct BearingOfPoint {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t) {
     return measure_bearing(s.seen, from, m, T(s.landmark.offset_x), T(s.landmark.offset_y));
   }
 };
 struct BearingOfRay {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t i) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t i) {
     return measure_ray(s.seen, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i));
   }
 };
 struct RangeOfRing {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t i) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t i) {
     return measure_ring(s.seen, range_of<T>(s.seen, i), from, m, anchor_x<T>(s.landmark, i),
                         anchor_y<T>(s.landmark, i))
         .measured;
@@ -120,8 +119,8 @@ struct RangeOfRing {
 // The derivatives of the edge's innovation are those of a bearing.
 struct EdgeOfPoint {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t) {
     const T ox = T(s.landmark.offset_x);
     const T oy = T(s.landmark.offset_y);
     Measured1<T> measured = measure_bearing(s.seen, from, m, ox, oy);
@@ -131,13 +130,13 @@ struct EdgeOfPoint {
 };
 struct EdgeOfRing {
   template <class T>
-  static HWY_INLINE Measured1<T> measured(const LandmarkObservation& s, const Sensor<T>& from,
-                                          const Gaussian2<T>& m, std::size_t i) {
+  static HWY_INLINE Measured1<T> measure(const LandmarkObservation& s, const Sensor<T>& from,
+                                         const Gaussian2<T>& m, std::size_t i) {
     return measure_edge(s.seen, s.mount, from, m, anchor_x<T>(s.landmark, i), anchor_y<T>(s.landmark, i));
   }
 };
 
-// Calls job(way) with the way in which such an observation looks at such a landmark.
+// Calls job(model) with the model of such an observation of such a landmark.
 template <class Job>
 HWY_INLINE auto dispatch_model(const LandmarkObservation& s, const Job& job) {
   if (s.landmark.form == LandmarkForm::kRay) return job(BearingOfRay());
@@ -159,8 +158,8 @@ HWY_INLINE Updated<T> update(const Measured1<T>& measured, const Gaussian2<T>& m
 }
 
 // What a landmark cannot be is not kept: a ray does not reach beyond the sensor's range, let alone infinity.
-template <class T, class Way>
-HWY_INLINE Gaussian2<T> possible(const LandmarkObservation&, const Gaussian2<T>& m, Way) {
+template <class T, class Model>
+HWY_INLINE Gaussian2<T> possible(const LandmarkObservation&, const Gaussian2<T>& m, Model) {
   return m;
 }
 template <class T>
@@ -224,7 +223,7 @@ struct Sums {
   }
 };
 
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE InnovationSums compare_range(const LandmarkObservation& observation, const Increment& increment,
                                         const PoseColumns& before, const About& about, const double* weight,
                                         ParticleRange range) {
@@ -242,7 +241,7 @@ HWY_INLINE InnovationSums compare_range(const LandmarkObservation& observation, 
       const T part =
           s.landmark.mode_count == 1 ? w : w * exponential(load<T>(mode.log_weight, range.begin + i));
       const Compared<T> c =
-          compare(Way::measured(s, from, m, range.begin + i), from, pose, d, m, s.seen.kind);
+          compare(Model::measure(s, from, m, range.begin + i), from, pose, d, m, s.seen.kind);
       sums.add(c, c.nu_r - T(about.range), wrapped(c.nu_b - T(about.bearing)), part);
     }
   }
@@ -265,7 +264,7 @@ HWY_INLINE Polar<T> innovation(const Measured1<T>& l, ObservationKind kind) {
   return {zero, l.nu};
 }
 
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE void list_range(const LandmarkObservation& observation, const Increment& increment,
                            const PoseColumns& before, const About& about, float* nu_r, float* nu_b,
                            ParticleRange range) {
@@ -277,7 +276,7 @@ HWY_INLINE void list_range(const LandmarkObservation& observation, const Increme
     for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
       const LandmarkMode& mode = s.landmark.modes[k];
       const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, range.begin + i);
-      const Polar<T> nu = innovation(Way::measured(s, from, m, range.begin + i), s.seen.kind);
+      const Polar<T> nu = innovation(Model::measure(s, from, m, range.begin + i), s.seen.kind);
       const T of_range = nu.range - T(about.range);
       const T of_bearing = wrapped(nu.bearing - T(about.bearing));
       if (s.landmark.mode_count == 1) {
@@ -296,10 +295,10 @@ HWY_INLINE void list_range(const LandmarkObservation& observation, const Increme
 
 // Several hypotheses together say of the increment what their mixture has as moments: with g_k the row of
 // each, cov(d, z) = P sum w_k g_k, var z = sum w_k (g_k P g_k^T + Z_k + nu_k^2) - (sum w_k nu_k)^2.
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE Conditioned<T> condition_by_modes(const LandmarkObservation& s, const Sensor<T>& from,
                                              const Pose<T>& before, const Gaussian3<T>& d, std::size_t i,
-                                             Way) {
+                                             Model) {
   const T zero = T(0.0F);
   T nu = zero;
   T second = zero;
@@ -307,7 +306,7 @@ HWY_INLINE Conditioned<T> condition_by_modes(const LandmarkObservation& s, const
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
     const LandmarkMode& mode = s.landmark.modes[k];
     const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, i);
-    const Measured1<T> measured = Way::measured(s, from, m, i);
+    const Measured1<T> measured = Model::measure(s, from, m, i);
     const Column3<T> g_k = in_frame_of(before, measured.g_x, measured.g_y, measured.g_t);
     const T log_weight = load<T>(mode.log_weight, i);
     const T w = exponential(log_weight);
@@ -329,7 +328,7 @@ HWY_INLINE Conditioned<T> condition_by_modes(const LandmarkObservation&, const S
   return {d, T(0.0F)};  // points have one hypothesis
 }
 
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE void condition_range(const LandmarkObservation& observation, const Increment& expected,
                                 const PoseColumns& before, double exponent,
                                 const IncrementColumns& increments, double* log_weight, ParticleRange range) {
@@ -340,8 +339,8 @@ HWY_INLINE void condition_range(const LandmarkObservation& observation, const In
     const Sensor<T> from = sensor_of(moved(pose, d.x, d.y, d.t), s.mount);
     const Gaussian2<T> m = load_gaussian<T>(s.landmark.modes->gaussian, range.begin + i);
     const Conditioned<T> after =
-        s.landmark.mode_count > 1 ? condition_by_modes(s, from, pose, d, range.begin + i, Way())
-                                  : condition(Way::measured(s, from, m, range.begin + i), from, pose, d, m);
+        s.landmark.mode_count > 1 ? condition_by_modes(s, from, pose, d, range.begin + i, Model())
+                                  : condition(Model::measure(s, from, m, range.begin + i), from, pose, d, m);
     store_increment(after.d, increments, i);
     add_scaled(after.log_likelihood, exponent, log_weight + i);  // Francisco (6)
   }
@@ -353,15 +352,15 @@ HWY_INLINE Sensor<T> load_sensor(const PoseColumns& sensors, std::size_t i) {
   return {pose.x, pose.y, pose.c, pose.s, T(0.0F), T(0.0F)};
 }
 
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE void update_range(const LandmarkObservation& s, const PoseColumns& sensors, double exponent,
                              double* log_weight, ParticleRange range) {
   const GaussianColumns& gaussian = s.landmark.modes->gaussian;
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
     const Sensor<T> from = load_sensor<T>(sensors, i);
     const Gaussian2<T> m = load_gaussian<T>(gaussian, range.begin + i);
-    const Updated<T> after = update(Way::measured(s, from, m, range.begin + i), m);
-    store_gaussian(possible(s, after.m, Way()), gaussian, range.begin + i);
+    const Updated<T> after = update(Model::measure(s, from, m, range.begin + i), m);
+    store_gaussian(possible(s, after.m, Model()), gaussian, range.begin + i);
     if (log_weight != nullptr) add_scaled(after.log_likelihood, exponent, log_weight + i);  // Francisco (6)
   }
 }
@@ -369,10 +368,10 @@ HWY_INLINE void update_range(const LandmarkObservation& s, const PoseColumns& se
 // A hypothesis that the sensor could not have seen dies, unless it could have seen none. It is the state that
 // is out of view, not the observation that is unlikely: to count that at every observation would be to count
 // it again and again.
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE T log_possible(const LandmarkObservation& s, const Sensor<T>& from, const Gaussian2<T>& m,
-                          std::size_t i, Way) {
-  if (!std::is_same_v<Way, RangeOfRing> || s.mount.half_view >= 3.14F) return T(0.0F);
+                          std::size_t i, Model) {
+  if (!std::is_same_v<Model, RangeOfRing> || s.mount.half_view >= 3.14F) return T(0.0F);
   const Ray<T> ray = measure_ring(s.seen, range_of<T>(s.seen, i), from, m, anchor_x<T>(s.landmark, i),
                                   anchor_y<T>(s.landmark, i))
                          .ray;
@@ -383,14 +382,14 @@ HWY_INLINE T log_possible(const LandmarkObservation& s, const Sensor<T>& from, c
 }
 
 // Updates a hypothesis and returns its log weight before normalisation.
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE T update_mode(const LandmarkObservation& s, const Sensor<T>& from, const LandmarkMode& mode,
                          std::size_t i) {
   const Gaussian2<T> m = load_gaussian<T>(mode.gaussian, i);
-  const Updated<T> after = update(Way::measured(s, from, m, i), m);
-  store_gaussian(possible(s, after.m, Way()), mode.gaussian, i);
+  const Updated<T> after = update(Model::measure(s, from, m, i), m);
+  store_gaussian(possible(s, after.m, Model()), mode.gaussian, i);
   const T before = load<T>(mode.log_weight, i);
-  const T weight = before + after.log_likelihood + log_possible(s, from, m, i, Way());
+  const T weight = before + after.log_likelihood + log_possible(s, from, m, i, Model());
   return where_less(T(0.5F * kDeadMode), before, weight, T(kDeadMode));
 }
 
@@ -414,23 +413,23 @@ HWY_INLINE T keep_modes(const LandmarkView& landmark, const float* log_weights, 
 }
 
 // The hypotheses of one vector of particles; returns the log-likelihood of the observation.
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE T update_modes(const LandmarkObservation& s, const Sensor<T>& from, std::size_t i) {
   alignas(64) float log_weights[kMaxModes * kParticleLanes];
   T best = T(kDeadMode);
   for (std::size_t k = 0; k < s.landmark.mode_count; ++k) {
-    const T log_weight = update_mode<T, Way>(s, from, s.landmark.modes[k], i);
+    const T log_weight = update_mode<T, Model>(s, from, s.landmark.modes[k], i);
     store(log_weight, log_weights, k * kParticleLanes);
     best = larger(best, log_weight);
   }
   return keep_modes(s.landmark, log_weights, best, i);
 }
 
-template <class T, class Way>
+template <class T, class Model>
 HWY_INLINE void update_modes_range(const LandmarkObservation& s, const PoseColumns& sensors, double exponent,
                                    double* log_weight, ParticleRange range) {
   for (std::size_t i = 0; i < range.count; i += width_of<T>()) {
-    const T log_likelihood = update_modes<T, Way>(s, load_sensor<T>(sensors, i), range.begin + i);
+    const T log_likelihood = update_modes<T, Model>(s, load_sensor<T>(sensors, i), range.begin + i);
     if (log_weight != nullptr) add_scaled(log_likelihood, exponent, log_weight + i);  // Francisco (6)
   }
 }
@@ -467,7 +466,7 @@ template <class T>
 HWY_INLINE T clearly_in_view(const LandmarkObservation& s, const Sensor<T>& from, const Place<T>& p) {
   const T reach_margin = T(kDeviationsInside) * square_root(p.range_var + T(kReachVariance));
   const T far = inverse(T(s.mount.min_rho)) - p.ray.r - reach_margin;
-  const T near = p.ray.r - T(s.mount.least_range) - reach_margin;
+  const T near = p.ray.r - T(s.mount.min_range) - reach_margin;
   const T edge_margin = T(kDeviationsInside) * square_root(p.bearing_var + T(kViewEdgeVariance));
   const T edge = T(s.mount.half_view) - absolute(off_axis(s.mount, from, p.ray)) - edge_margin;
   const T inside = s.mount.half_view < 3.14F ? edge : T(1.0F);

@@ -43,15 +43,15 @@ InnovationSums compare_observation(const LandmarkObservation& observation, const
                                    const PoseColumns& before, const About& about, const double* weight,
                                    ParticleRange range);
 
-/// The innovations of each particle, less `about`: of range and of bearing, 0 where it is not measured. Not
-/// for landmarks of several hypotheses.
+/// The innovations of each particle, less `about`: of range and of bearing, 0 where it is not measured. Of
+/// several hypotheses the weighted mean; those of a weight below 1e-3 do not count.
 void list_innovations(const LandmarkObservation& observation, const Increment& increment,
                       const PoseColumns& before, const About& about, float* nu_r, float* nu_b,
                       ParticleRange range);
 
 /// What the observation tells of the increments of robots that stood at `before` (Montemerlo et al. 2003):
 /// with nu, L as above, mu += K nu, P -= K L K^T, K = P Hx^T L^-1, and log_weight += exponent log N(nu; 0, L)
-/// but for its constant. Not for landmarks of several hypotheses.
+/// but for its constant. Several hypotheses count as one Gaussian with the moments of their mixture.
 void condition_increments(const LandmarkObservation& observation, const Increment& expected,
                           const PoseColumns& before, double exponent, const IncrementColumns& increments,
                           double* log_weight, ParticleRange range);

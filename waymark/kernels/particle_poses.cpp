@@ -1,6 +1,5 @@
 #include "waymark/kernels/particle_poses.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

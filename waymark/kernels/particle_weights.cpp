@@ -1,8 +1,6 @@
 #include "waymark/kernels/particle_weights.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 

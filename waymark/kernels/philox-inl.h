@@ -1,5 +1,5 @@
-// Philox on vectors: the random numbers of core/random.hpp, many at once. Compiled once per instruction set, hence no
-// #pragma once.
+// Philox on vectors: the random numbers of core/random.hpp, many at once. Compiled once per instruction set,
+// hence no #pragma once.
 #if defined(WAYMARK_KERNELS_PHILOX_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef WAYMARK_KERNELS_PHILOX_INL_H
 #undef WAYMARK_KERNELS_PHILOX_INL_H

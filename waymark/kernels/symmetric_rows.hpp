@@ -4,8 +4,10 @@
 
 namespace waymark::kernels {
 
-/// The most rows that project_rows() and transform_leading_rows() combine.
-inline constexpr std::size_t kMaxRows = 16;
+/// The most rows that project_rows() and transform_leading_rows() combine: as many as the largest observation
+/// of an EKF depends on, with three of the robot, three points of three coordinates and three pairs of
+/// biases.
+inline constexpr std::size_t kMaxRows = 18;
 
 /// The whole rows first .. first + count - 1 of the symmetric P, from its upper triangle, into a count x n
 /// panel with stride ldo. Left of the diagonal a row is a column in memory, one cache line per element.

@@ -33,7 +33,7 @@ bool are_one(const Marker& a, const Marker& b) {
 class ArucoDetector final : public MarkerDetector {
  public:
   explicit ArucoDetector(const MarkerDictionary& dictionary)
-      : bits_per_side_(dictionary.bits_per_side), book_(dictionary) {}
+      : bits_per_side_(dictionary.bits_per_side), code_book_(dictionary) {}
 
   std::vector<Marker> detect(const ImageView& image) override {
     if (std::min(image.width_px, image.height_px) < kImageMin_px) return {};
@@ -58,12 +58,12 @@ class ArucoDetector final : public MarkerDetector {
   [[nodiscard]] std::optional<Marker> read(const ImageView& image, const Corners& quad) const {
     const auto cells = read_cells(image, quad, bits_per_side_);
     if (!cells || !is_marker(*cells)) return std::nullopt;
-    const auto code = book_.find(cells->bits);
+    const auto code = code_book_.find(cells->bits);
     return code ? std::optional(Marker{code->id, turned(quad, code->turns)}) : std::nullopt;
   }
 
   int bits_per_side_;
-  CodeBook book_;
+  CodeBook code_book_;
   QuadFinder finder_;
 };
 

@@ -1,6 +1,5 @@
 #include "waymark/markers/contours.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -40,10 +39,10 @@ class Walker {
   [[nodiscard]] Eigen::Vector2f point(const Crossing& at) const {
     const auto bright = static_cast<float>(*at.bright);
     const auto dark = static_cast<float>(at.bright[offsets_[turned(at.direction, kRight)]]);
-    const float way = bright / (bright - dark);
+    const float part = bright / (bright - dark);
     const Step& across = kSteps[turned(at.direction, kRight)];
-    return {static_cast<float>(at.u) + way * static_cast<float>(across.u),
-            static_cast<float>(at.v) + way * static_cast<float>(across.v)};
+    return {static_cast<float>(at.u) + part * static_cast<float>(across.u),
+            static_cast<float>(at.v) + part * static_cast<float>(across.v)};
   }
 
   /// Through the square of pixels ahead: straight on where its far corners are as the near ones, else around

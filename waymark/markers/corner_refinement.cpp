@@ -70,11 +70,11 @@ Vector3d line_through(const std::vector<Vector2d>& rays) {
 struct Side {
   Vector3d line = Vector3d::Zero();
   double points = 0.0;
-  double middle_px = 0.0;   ///< mean way of the points from the first corner
-  double spread_px2 = 0.0;  ///< sum of their squared ways from there
+  double middle_px = 0.0;   ///< mean distance of the points from the first corner
+  double spread_px2 = 0.0;  ///< sum of their squared distances from there
 
-  /// By how much the side is off at a way from the first corner where its mean is off by 1/sqrt(points), and
-  /// where its direction is off by as much as it is known to.
+  /// By how much the side is off at a distance from the first corner where its mean is off by 1/sqrt(points),
+  /// and where its direction is off by as much as it is known to.
   [[nodiscard]] Vector2d errors_at(double along_px) const {
     return {1.0 / std::sqrt(points), (along_px - middle_px) / std::sqrt(spread_px2)};
   }

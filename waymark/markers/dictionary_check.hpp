@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace waymark::markers {
 
-/// Notices that markers are looked for in the wrong dictionary: hardly one is found, or they come and go,
+/// Notices that markers are searched for in the wrong dictionary: hardly one is found, or they come and go,
 /// while another dictionary finds more in some of the same images.
 class DictionaryCheck {
  public:

@@ -53,36 +53,36 @@ void MarkerFinder::stop() {
   changed_.notify_all();
 }
 
-void MarkerFinder::announce(SharedImage frame) {
+void MarkerFinder::announce(SharedImage image) {
   if (threads_.empty()) return;
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(frame));
+    waiting_.push_back(std::move(image));
   }
   changed_.notify_all();
 }
 
-MarkerFinder::Finds MarkerFinder::take(const SharedImage& frame) {
-  if (threads_.empty()) return look(*frame);
+MarkerFinder::Finds MarkerFinder::take(const SharedImage& image) {
+  if (threads_.empty()) return look(*image);
   std::unique_lock lock(mutex_);
-  if (!is_done(frame, lock)) std::rethrow_exception(failure_);
-  return std::move(done_.extract(frame).mapped());
+  if (!is_done(image, lock)) std::rethrow_exception(failure_);
+  return std::move(done_.extract(image).mapped());
 }
 
-void MarkerFinder::drop(const SharedImage& frame) {
+void MarkerFinder::drop(const SharedImage& image) {
   if (threads_.empty()) return;
   std::unique_lock lock(mutex_);
-  if (is_done(frame, lock)) done_.erase(done_.find(frame));
+  if (is_done(image, lock)) done_.erase(done_.find(image));
 }
 
-bool MarkerFinder::is_done(const SharedImage& frame, std::unique_lock<std::mutex>& lock) {
-  changed_.wait(lock, [&] { return failure_ != nullptr || done_.contains(frame); });
-  return done_.contains(frame);
+bool MarkerFinder::is_done(const SharedImage& image, std::unique_lock<std::mutex>& lock) {
+  changed_.wait(lock, [&] { return failure_ != nullptr || done_.contains(image); });
+  return done_.contains(image);
 }
 
-MarkerFinder::Finds MarkerFinder::look(const GreyImage& frame) {
+MarkerFinder::Finds MarkerFinder::look(const GreyImage& image) {
   const Duration start = thread_cpu_time();
-  Finds finds{detector_->detect(frame), {}};
+  Finds finds{detector_->detect(image), {}};
   finds.cpu = thread_cpu_time() - start;
   return finds;
 }
@@ -125,7 +125,7 @@ MarkerFrontEnd::MarkerFrontEnd(const markers::MarkerOptions& options, const mark
                                const Camera& camera, std::unique_ptr<markers::MarkerDetector> detector)
     : camera_(camera),
       confirm_(options.confirm),
-      sighter_(camera, options, set),
+      observer_(camera, options, set),
       check_(set.dictionary),
       finder_(std::move(detector), options.own_thread) {}
 
@@ -133,11 +133,11 @@ bool MarkerFrontEnd::fits(const ImageView& image) const {
   return image.width_px == camera_.width_px() && image.height_px == camera_.height_px();
 }
 
-FrontEnd::Seen MarkerFrontEnd::see(const SharedImage& frame) {
-  const MarkerFinder::Finds finds = finder_.take(frame);
+FrontEnd::Seen MarkerFrontEnd::see(const SharedImage& image) {
+  const MarkerFinder::Finds finds = finder_.take(image);
   blocks_.record(0, finds.cpu);
   BlockTimer timer(blocks_, 1);
-  measure(frame, finds.markers);
+  measure(image, finds.markers);
   refuse_duplicates();
   hold_back_new();
   timer.finish(1);
@@ -153,21 +153,21 @@ std::span<const Observation> MarkerFrontEnd::see(const MarkerOutlines& outlines)
   return observations_;
 }
 
-void MarkerFrontEnd::measure(const SharedImage& frame, std::span<const markers::Marker> found) {
+void MarkerFrontEnd::measure(const SharedImage& image, std::span<const markers::Marker> found) {
   observations_.clear();
   std::vector<std::int32_t> ids;
   for (const markers::Marker& marker : found) {
-    const auto seen = sighter_.sight(*frame, marker);
+    const auto seen = observer_.observe(*image, marker);
     const auto* refusal = std::get_if<markers::Refusal>(&seen);
     take(seen);
     if (refusal == nullptr || *refusal != markers::Refusal::kNoBorder) ids.push_back(marker.id);
   }
-  check_.add(frame, ids);
+  check_.add(image, ids);
 }
 
 void MarkerFrontEnd::measure(const MarkerOutlines& outlines) {
   observations_.clear();
-  for (const MarkerOutline& outline : outlines) take(sighter_.sight(outline.corners_px, outline.id));
+  for (const MarkerOutline& outline : outlines) take(observer_.observe(outline.corners_px, outline.id));
   std::ranges::stable_sort(observations_, {}, [](const Observation& each) { return *each.id; });
 }
 
@@ -193,7 +193,8 @@ void MarkerFrontEnd::refuse_duplicates() {
   }
 }
 
-/// Consecutive detections are required, to reject false positives.
+/// A new identity must be found in several images, with gaps of at most kGapMax between them, to reject false
+/// positives.
 void MarkerFrontEnd::hold_back_new() {
   constexpr std::int64_t kGapMax = 15;  // images
   ++images_;

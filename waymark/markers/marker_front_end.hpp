@@ -37,7 +37,7 @@ class MarkerFinder {
     std::vector<markers::Marker> markers;
     Duration cpu{0};  ///< that it took
   };
-  using SharedImage = std::shared_ptr<const GreyImage>;
+  using SharedImage = FrontEnd::SharedImage;
 
   /// Throws std::system_error where the thread cannot be started.
   MarkerFinder(std::unique_ptr<markers::MarkerDetector> detector, bool own_thread);
@@ -46,19 +46,19 @@ class MarkerFinder {
   MarkerFinder& operator=(const MarkerFinder&) = delete;
 
   /// An image that will be taken or dropped.
-  void announce(SharedImage frame);
+  void announce(SharedImage image);
   /// What is in one that was announced; waits where need be. What was thrown while looking is thrown here.
-  [[nodiscard]] Finds take(const SharedImage& frame);
+  [[nodiscard]] Finds take(const SharedImage& image);
   /// It will not be needed.
-  void drop(const SharedImage& frame);
+  void drop(const SharedImage& image);
 
  private:
-  [[nodiscard]] Finds look(const GreyImage& frame);
+  [[nodiscard]] Finds look(const GreyImage& image);
   void work();
   void look_at_waiting();
   void stop();
   /// Waits for what becomes of an image: is it done?
-  [[nodiscard]] bool is_done(const SharedImage& frame, std::unique_lock<std::mutex>& lock);
+  [[nodiscard]] bool is_done(const SharedImage& image, std::unique_lock<std::mutex>& lock);
 
   std::unique_ptr<markers::MarkerDetector> detector_;
   std::mutex mutex_;
@@ -82,11 +82,11 @@ class MarkerFrontEnd final : public FrontEnd {
   [[nodiscard]] bool corrects_filter() const override { return false; }
   [[nodiscard]] bool takes_outlines() const override { return true; }
 
-  void announce(const SharedImage& frame) override { finder_.announce(frame); }
-  void drop(const SharedImage& frame) override { finder_.drop(frame); }
+  void announce(const SharedImage& image) override { finder_.announce(image); }
+  void drop(const SharedImage& image) override { finder_.drop(image); }
 
   /// The markers in an image, each identity once.
-  Seen see(const SharedImage& frame) override;
+  Seen see(const SharedImage& image) override;
   std::span<const Observation> see(const MarkerOutlines& outlines) override;
 
   [[nodiscard]] std::span<const FunctionBlocks::Row> blocks() const override { return blocks_.rows(); }
@@ -96,7 +96,7 @@ class MarkerFrontEnd final : public FrontEnd {
   MarkerFrontEnd(const markers::MarkerOptions& options, const markers::MarkerSet& set, const Camera& camera,
                  std::unique_ptr<markers::MarkerDetector> detector);
 
-  void measure(const SharedImage& frame, std::span<const markers::Marker> found);
+  void measure(const SharedImage& image, std::span<const markers::Marker> found);
   void measure(const MarkerOutlines& outlines);
   void take(const std::variant<Observation, markers::Refusal>& seen);
   void refuse_duplicates();
@@ -110,7 +110,7 @@ class MarkerFrontEnd final : public FrontEnd {
 
   Camera camera_;
   int confirm_;
-  markers::MarkerSighter sighter_;
+  markers::MarkerObserver observer_;
   markers::DictionaryCheck check_;
   std::vector<Observation> observations_;
   std::array<std::int64_t, markers::kRefusals> refused_{};

@@ -21,6 +21,8 @@ using Eigen::Vector3d;
 // that are seen at a slant, hence a multiple of the chi-square quantile; a side that is half hidden gives
 // hundreds.
 constexpr double kMisfitMax = 40.0;
+// More edge-on markers are not used.
+constexpr double kMaxTilt_deg = 75.0;
 
 }  // namespace
 
@@ -51,26 +53,27 @@ PlanarView view_in_plane(const CameraMount& mount, const Vector3d& p_camera) {
   return {{range_m, std::atan2(p.y(), p.x())}, polar * to_plane};
 }
 
-MarkerSighter::MarkerSighter(Camera camera, MarkerOptions options, MarkerSet markers)
+MarkerObserver::MarkerObserver(Camera camera, MarkerOptions options, MarkerSet markers)
     : camera_(std::move(camera)), options_(std::move(options)), markers_(std::move(markers)) {}
 
-std::variant<Observation, Refusal> MarkerSighter::sight(const ImageView& image, const Marker& marker) const {
+std::variant<Observation, Refusal> MarkerObserver::observe(const ImageView& image,
+                                                           const Marker& marker) const {
   if (markers_.size_of(marker.id) <= 0.0) return Refusal::kNoSize;
   const int cells = markers_.dictionary.bits_per_side + 2;
   if (!has_black_border(image, marker.corners_px, cells)) return Refusal::kNoBorder;
   const auto corners = refine_corners(image, camera_, marker.corners_px, cells);
   if (!corners) return Refusal::kUnclear;
-  return sight(*corners, marker.id);
+  return observe(*corners, marker.id);
 }
 
-std::variant<Observation, Refusal> MarkerSighter::sight(const Corners& corners_px, std::int32_t id) const {
+std::variant<Observation, Refusal> MarkerObserver::observe(const Corners& corners_px, std::int32_t id) const {
   if (markers_.size_of(id) <= 0.0) return Refusal::kNoSize;
   const double ratio = options_.corner_sigma_px / options_.side_sigma_px;
-  return sight({corners_px, ratio * ratio * CornerCovariance::Identity()}, id);
+  return observe({corners_px, ratio * ratio * CornerCovariance::Identity()}, id);
 }
 
-std::variant<Observation, Refusal> MarkerSighter::sight(const RefinedCorners& corners,
-                                                        std::int32_t id) const {
+std::variant<Observation, Refusal> MarkerObserver::observe(const RefinedCorners& corners,
+                                                           std::int32_t id) const {
   const auto poses = estimate_marker_poses(camera_, corners, markers_.size_of(id));
   if (!poses) return Refusal::kUnclear;
   if (is_edge_on(poses->best)) return Refusal::kEdgeOn;
@@ -83,7 +86,7 @@ std::variant<Observation, Refusal> MarkerSighter::sight(const RefinedCorners& co
                      RangeBearing{seen.value[0], wrap_angle(seen.value[1])}, seen.covariance};
 }
 
-RangeBearingEstimate MarkerSighter::estimate(const MarkerPose& pose) const {
+RangeBearingEstimate MarkerObserver::estimate(const MarkerPose& pose) const {
   const double variance = options_.side_sigma_px * options_.side_sigma_px;
   const Matrix3d P = variance * pose.information.inverse().bottomRightCorner<3, 3>();
   const PlanarView view = view_in_plane(camera_.options().mount, pose.p_camera_marker);
@@ -95,9 +98,9 @@ RangeBearingEstimate MarkerSighter::estimate(const MarkerPose& pose) const {
   return {view.value, view.dvalue_dpoint * shaken * view.dvalue_dpoint.transpose()};
 }
 
-bool MarkerSighter::is_edge_on(const MarkerPose& pose) const {
+bool MarkerObserver::is_edge_on(const MarkerPose& pose) const {
   const double cosine = pose.R_camera_marker.col(2).dot(pose.p_camera_marker.normalized());
-  return cosine < std::cos(to_radians(options_.max_tilt_deg));
+  return cosine < std::cos(to_radians(kMaxTilt_deg));
 }
 
 RangeBearingEstimate mixture(const RangeBearingEstimate& best, const RangeBearingEstimate& other,

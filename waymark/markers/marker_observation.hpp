@@ -39,21 +39,22 @@ struct PlanarView {
 [[nodiscard]] PlanarView view_in_plane(const CameraMount& mount, const Eigen::Vector3d& p_camera);
 
 /// Makes observations of markers in one camera's images.
-class MarkerSighter {
+class MarkerObserver {
  public:
-  MarkerSighter(Camera camera, MarkerOptions options, MarkerSet markers);
+  MarkerObserver(Camera camera, MarkerOptions options, MarkerSet markers);
 
   /// Range and bearing of a marker. The covariance is the noise of points on its sides, carried through the
   /// fitted sides, corners and pose, and the shaking of the mount. Where the other pose fits nearly as well
   /// the observation is the mean of both by their likelihoods, and their distance counts as noise.
-  [[nodiscard]] std::variant<Observation, Refusal> sight(const ImageView& image, const Marker& marker) const;
+  [[nodiscard]] std::variant<Observation, Refusal> observe(const ImageView& image,
+                                                           const Marker& marker) const;
 
   /// The same from corners that another program found, each with noise of its own.
-  [[nodiscard]] std::variant<Observation, Refusal> sight(const Corners& corners_px, std::int32_t id) const;
+  [[nodiscard]] std::variant<Observation, Refusal> observe(const Corners& corners_px, std::int32_t id) const;
 
   /// The same from corners that are refined already.
-  [[nodiscard]] std::variant<Observation, Refusal> sight(const RefinedCorners& corners,
-                                                         std::int32_t id) const;
+  [[nodiscard]] std::variant<Observation, Refusal> observe(const RefinedCorners& corners,
+                                                           std::int32_t id) const;
 
  private:
   [[nodiscard]] RangeBearingEstimate estimate(const MarkerPose& pose) const;

@@ -17,7 +17,6 @@ struct MarkerOptions {
   double side_sigma_px = 0.08;   ///< of one point on a side
   double corner_sigma_px = 0.3;  ///< of a corner that another program found
   double jitter_deg = 0.05;      ///< of the camera on its robot from image to image
-  double max_tilt_deg = 75.0;    ///< more edge-on markers are not used
   int confirm = 1;               ///< images that must show an identity before it is believed
   bool own_thread = true;        ///< detection runs ahead of the filter
 };

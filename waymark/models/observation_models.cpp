@@ -7,6 +7,10 @@ namespace waymark {
 static_assert(ObservationModel<RangeBearingModel> && ObservationModel<RangeModel> &&
               ObservationModel<BearingModel>);
 
+Eigen::Vector2d position_in_sensor(const RangeBearing& z) {
+  return z.range_m * Eigen::Vector2d(std::cos(z.bearing_rad), std::sin(z.bearing_rad));
+}
+
 Linearization<2> RangeBearingModel::linearize(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                               const Eigen::Vector2d& p_world) {
   const Eigen::Vector2d arm = T_world_robot.rotation() * T_robot_sensor.position();

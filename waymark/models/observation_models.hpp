@@ -31,6 +31,9 @@ concept ObservationModel = requires(const typename M::Value& z, const Pose2& T, 
 /// Nearer to the sensor than this the direction of a landmark means nothing.
 inline constexpr double kMinDistance_m = 1e-3;
 
+/// Where a landmark was observed, in the frame of the sensor.
+[[nodiscard]] Eigen::Vector2d position_in_sensor(const RangeBearing& z);
+
 /// Range and bearing from a sensor at T_robot_sensor on the robot:
 /// d = p - x_sensor, z = (|d|, atan2(d_y, d_x) - theta_sensor). Jacobians 2x3 and 2x2.
 struct RangeBearingModel {

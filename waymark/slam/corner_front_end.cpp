@@ -35,9 +35,9 @@ const Correction& CornerFrontEnd::see(const ImageView& image) {
 }
 
 /// One round.
-const Correction& CornerFrontEnd::correct(const vision::SearchOutcome& observations) {
+const Correction& CornerFrontEnd::correct(const vision::SearchOutcome& outcome) {
   stopwatch_.start();
-  const Correction& correction = filter_.correct(observations.found, observations.missed);
+  const Correction& correction = filter_.correct(outcome.found, outcome.missed);
   filter_took_ += stopwatch_.stop();
   innovations_.insert(innovations_.end(), correction.innovations.begin(), correction.innovations.end());
   correction_ = {innovations_, correction.removed};

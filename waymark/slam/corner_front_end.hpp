@@ -23,7 +23,7 @@ class CornerFrontEnd final : public FrontEnd {
 
   /// Landmarks first, then candidates and new corners at the pose that these corrected. Allocates nothing in
   /// a steady state.
-  Seen see(const SharedImage& frame) override { return &see(*frame); }
+  Seen see(const SharedImage& image) override { return &see(*image); }
   const Correction& see(const ImageView& image);
 
   [[nodiscard]] std::span<const FunctionBlocks::Row> blocks() const override {
@@ -40,7 +40,7 @@ class CornerFrontEnd final : public FrontEnd {
   void remember(std::span<const LandmarkPatch> patches) { tracker_.remember(patches); }
 
  private:
-  const Correction& correct(const vision::SearchOutcome& observations);
+  const Correction& correct(const vision::SearchOutcome& outcome);
   void leave_time();
 
   PixelSlam& filter_;

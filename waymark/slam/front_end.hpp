@@ -44,7 +44,7 @@ class FrontEnd {
   virtual void drop(const SharedImage& /*image*/) {}
 
   /// Looks into an image that fits, taken at the pose that the filter has reached.
-  virtual Seen see(const SharedImage& frame) = 0;
+  virtual Seen see(const SharedImage& image) = 0;
   /// The observations where another program has looked. Valid until the next call.
   virtual std::span<const Observation> see(const MarkerOutlines& /*outlines*/) { return {}; }
 
@@ -53,7 +53,7 @@ class FrontEnd {
   /// What was not used and why, and what looks wrong in view of what the filter made of it; one line each.
   [[nodiscard]] virtual std::vector<std::string> notes(std::span<const Innovation> innovations) const = 0;
 
-  /// What became of everything that was looked for in the last image, where it looks for something.
+  /// What became of everything that was searched for in the last image, where it searches.
   [[nodiscard]] virtual std::span<const vision::SearchRecord> search_records() const { return {}; }
   /// What landmarks look like, where it remembers that. Allocates.
   [[nodiscard]] virtual std::vector<LandmarkPatch> patches() const { return {}; }

@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,7 +26,7 @@ struct Step {
   Motion motion;                              ///< of the odometry since the step before
   std::span<const Observation> observations;  ///< as the filter got them. Valid during the call only.
   const Correction* correction = nullptr;     ///< null: nothing was observed. Valid during the call only.
-  const GreyImage* frame = nullptr;           ///< what the front end looked into, if anything. Likewise.
+  const GreyImage* image = nullptr;           ///< what the front end looked into, if anything. Likewise.
   Duration cpu{0};  ///< of this thread, where something was observed: from prediction to correction
 };
 
@@ -95,8 +94,8 @@ class Pipeline {
   std::optional<std::uint16_t> robot_;  // of the first event
   std::optional<Stamp> processed_;
   std::vector<Observation> batch_;
-  std::shared_ptr<const GreyImage> image_;  // of the stamp that is being processed
-  std::shared_ptr<const GreyImage> last_image_;
+  FrontEnd::SharedImage image_;  // of the stamp that is being processed
+  FrontEnd::SharedImage last_image_;
   Pose2 dead_reckoning_;
   Motion motion_;  // to the stamp that is being processed
   Stopwatch stopwatch_;

@@ -40,8 +40,8 @@ Predicted predict(const Eigen::Vector2d& measured, const Pose2& T_world_robot, c
   return predicted;
 }
 
-/// Where the robot was when a late observation was made, from where it was at its stamp.
-Pose2 relinearized_to_prior(const ObservationEdge& observation, const Calibration& c) {
+/// Where the robot was when a late observation was made, in its frame at the stamp of that.
+Pose2 delayed_pose(const ObservationEdge& observation, const Calibration& c) {
   const Eigen::Vector3d back = -c[kDelay] * observation.velocity;
   return {back.x(), back.y(), back.z()};
 }
@@ -109,7 +109,7 @@ OdometryFactor whiten_by_error_source(OdometryFactor factor, const Eigen::Vector
 ObservationFactor linearize_observation(const ObservationEdge& observation, const Pose2& T_world_robot,
                                         const Pose2& T_robot_sensor, const Eigen::Vector2d& p_world,
                                         const Calibration& calibration) {
-  const Pose2 T_world_seen = T_world_robot * relinearized_to_prior(observation, calibration);
+  const Pose2 T_world_seen = T_world_robot * delayed_pose(observation, calibration);
   const Pose2 T_world_sensor = T_world_seen * moved_mount(T_robot_sensor, calibration);
   if ((p_world - T_world_sensor.position()).norm() < kMinDistance_m) return {};
   const auto predicted = [&](double range_m, double bearing_rad) {

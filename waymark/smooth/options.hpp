@@ -7,8 +7,7 @@ namespace waymark {
 /// something.
 struct SmoothOptions {
   bool run = false;
-  double robust_dof = 4.0;  ///< of the Student-t distribution of all errors
-  int max_iterations = 50;
+  double robust_dof = 4.0;             ///< of the Student-t distribution of all errors
   bool odometry_is_commanded = false;  ///< the robot strays from its odometry, and not this from the robot
   double keyframe_distance_m = 0.0;    ///< between poses that are estimated,
   double keyframe_turn_deg = 0.0;      ///< or at least this much turning

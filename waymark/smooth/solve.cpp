@@ -18,6 +18,7 @@ namespace {
 constexpr double kMinIntervalSigma_m = 1e-4;
 constexpr double kMinIntervalSigma_rad = 1e-5;
 constexpr double kAnyWeight = 1e9;
+constexpr int kMaxIterations = 50;
 
 /// Student-t: the cost of a squared error, and its weight.
 struct Robust {
@@ -146,7 +147,7 @@ class Solver {
   Solution run() {
     Solution solution;
     solution.cost_before = solution.cost = cost(estimate_);
-    for (; solution.iterations < options_.max_iterations && !solution.converged; ++solution.iterations)
+    for (; solution.iterations < kMaxIterations && !solution.converged; ++solution.iterations)
       solution.converged = !step(solution.cost);
     add_covariances(solution);
     solution.estimate = estimate_;
@@ -283,13 +284,14 @@ class Solver {
     for (std::size_t i = 0; i < estimate_.landmarks.size(); ++i)
       solution.landmark_covariances.push_back(marginal<2>(*P, layout_.landmark(i)));
     for (const ObservationEdge& observation : graph_.observations)
-      solution.remainders.push_back(remainder_of(observation, *P));
+      solution.observation_residuals.push_back(residual_of(observation, *P));
     for (std::size_t i = 0; i < graph_.intervals.size(); ++i)
-      solution.interval_remainders.push_back(remainder_of_interval(i, *P));
+      solution.interval_residuals.push_back(residual_of_interval(i, *P));
   }
 
   /// All variables that an observation depends on are joined in the pattern of the inverse.
-  [[nodiscard]] Remainder remainder_of(const ObservationEdge& observation, const SelectedInverse& P) const {
+  [[nodiscard]] ObservationResidual residual_of(const ObservationEdge& observation,
+                                                const SelectedInverse& P) const {
     const ObservationFactor f = factor_of(estimate_, observation);
     Eigen::Matrix<double, 2, Eigen::Dynamic> J(2, 5 + std::ssize(layout_.estimated()));
     J << f.J_pose, f.J_landmark, f.J_calibration(Eigen::all, layout_.estimated());
@@ -303,7 +305,7 @@ class Solver {
     return {root * f.residual, (root * followed * root.transpose()).diagonal(), stated};
   }
 
-  [[nodiscard]] IntervalRemainder remainder_of_interval(std::size_t i, const SelectedInverse& P) const {
+  [[nodiscard]] IntervalResidual residual_of_interval(std::size_t i, const SelectedInverse& P) const {
     const OdometryFactor f = factor_of_interval(estimate_, i);
     Eigen::Matrix<double, 3, Eigen::Dynamic> J(3, 6 + std::ssize(layout_.estimated()));
     J << f.J_before, f.J_after, f.J_calibration(Eigen::all, layout_.estimated());

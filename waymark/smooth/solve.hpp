@@ -8,22 +8,21 @@
 namespace waymark::smooth {
 
 struct SolveOptions {
-  double robust_dof = 4.0;
-  int max_iterations = 50;
+  double robust_dof = 4.0;           ///< of the Student-t distribution of all errors
   double max_covariance_work = 1e9;  ///< beyond that many multiplications no covariances are computed
 };
 
-/// What is left over of something measured, predicted - measured, and how much of its variance the estimate
-/// followed: the noise of the measurement is what both make up together.
+/// The residual of something measured after the fit, predicted - measured, and how much of its variance the
+/// estimate followed: the noise of the measurement is what both make up together.
 template <int Size>
-struct RemainderOf {
+struct PostfitResidual {
   using Vector = Eigen::Matrix<double, Size, 1>;
   Vector residual = Vector::Zero();
   Vector followed = Vector::Zero();  ///< diagonal of H P H^T
   Vector stated = Vector::Ones();    ///< variances by which it was weighed
 };
-using Remainder = RemainderOf<2>;          ///< of range and bearing, or of the one number of an observation
-using IntervalRemainder = RemainderOf<3>;  ///< of x, y and theta of an interval
+using ObservationResidual = PostfitResidual<2>;  ///< range and bearing, or the one number of an observation
+using IntervalResidual = PostfitResidual<3>;     ///< x, y and theta
 
 /// The best estimate, how it was found, and how sure it is.
 struct Solution {
@@ -35,9 +34,9 @@ struct Solution {
   /// Of each pose given the first and of each landmark; empty where that would have taken too long.
   std::vector<Eigen::Matrix3d> pose_covariances;
   std::vector<Eigen::Matrix2d> landmark_covariances;
-  std::vector<Remainder> remainders;  ///< of each observation; empty with the covariances
-  std::vector<IntervalRemainder>
-      interval_remainders;  ///< of each interval, in the frame of its first pose; likewise
+  /// Of each observation, and of each interval in the frame of its first pose; empty with the covariances.
+  std::vector<ObservationResidual> observation_residuals;
+  std::vector<IntervalResidual> interval_residuals;
   Calibration calibration_sigmas = Calibration::Zero();
   CalibrationCovariance calibration_covariance = CalibrationCovariance::Zero();
 };

@@ -24,7 +24,7 @@ struct WorkCosts {
   double window_ns = 40.0;    ///< and per window
   double peak_ns = 3000.0;    ///< sub-pixel peak and its covariance
   double warp_ns = 20000.0;   ///< a patch drawn anew
-  double pixel_ns = 6.0;      ///< of a cell in which corners are looked for
+  double pixel_ns = 6.0;      ///< of a cell in which corners are searched for
 };
 [[nodiscard]] WorkCosts work_costs(kernels::Instructions instructions);
 

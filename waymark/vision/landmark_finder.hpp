@@ -10,7 +10,7 @@
 
 namespace waymark::vision {
 
-/// Where a landmark was found, or what came of looking for it.
+/// Where a landmark was found, or what came of searching for it.
 struct SearchResult {
   SearchRecord::Result result = SearchRecord::Result::kNotTried;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< found, or the best place

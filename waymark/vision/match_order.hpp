@@ -5,11 +5,11 @@
 
 namespace waymark::vision {
 
-/// Something that could be looked for.
+/// Something that could be searched for.
 struct Prospect {
   std::size_t expectation = 0;  ///< which one
   double nats = 0.0;            ///< what an observation would tell
-  double cost_ns = 1.0;         ///< what looking for it takes
+  double cost_ns = 1.0;         ///< what searching for it takes
 
   [[nodiscard]] double usefulness() const { return nats / cost_ns; }
 };

@@ -4,12 +4,9 @@ namespace waymark::vision {
 
 /// Where and when new landmarks are wanted.
 struct NewCornerOptions {
-  int wanted = 24;         ///< features in view: with fewer, new ones are looked for
+  int wanted = 24;         ///< features in view: with fewer, new ones are searched for
   int max_candidates = 8;  ///< under way at a time
   int max_new = 4;         ///< in one image
-  int columns = 4;         ///< of cells
-  int rows = 3;
-  double distance_px = 20.0;  ///< from any other feature
 };
 
 }  // namespace waymark::vision

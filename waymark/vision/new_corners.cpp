@@ -7,6 +7,16 @@
 #include "waymark/vision/patch.hpp"
 
 namespace waymark::vision {
+namespace {
+
+// Of cells over the image.
+constexpr int kColumns = 4;
+constexpr int kRows = 3;
+constexpr int kCells = kColumns * kRows;
+// From any other feature.
+constexpr double kMinDistance_px = 20.0;
+
+}  // namespace
 
 double shi_tomasi_score(const ImageView& image, int u, int v, int patch_px) {
   std::int64_t uu = 0, uv = 0, vv = 0;  // of differences over two pixels: twice the gradient
@@ -30,8 +40,8 @@ NewCorners::NewCorners(const NewCornerOptions& options, const CornerOptions& cor
       patch_px_(patch_px),
       width_px_(width_px),
       height_px_(height_px),
-      features_in_(static_cast<std::size_t>(cells())) {
-  detector_.reserve(width_px / options.columns + 1, height_px / options.rows + 1);
+      features_in_(static_cast<std::size_t>(kCells)) {
+  detector_.reserve(width_px / kColumns + 1, height_px / kRows + 1);
   strongest_.reserve(kRanked + 1);
   found_.reserve(static_cast<std::size_t>(options.max_new));
 }
@@ -42,9 +52,9 @@ std::span<const Corner> NewCorners::find(const ImageView& image, std::span<const
   const int in_view = static_cast<int>(features.size());
   const int most =
       std::min({options_.max_new, options_.max_candidates - candidates, options_.wanted - in_view});
-  const int share = (options_.wanted + cells() - 1) / cells();
+  const int share = (options_.wanted + kCells - 1) / kCells;
   count_features(features);
-  for (int tried = 0; tried < cells() && static_cast<int>(found_.size()) < most; ++tried) {
+  for (int tried = 0; tried < kCells && static_cast<int>(found_.size()) < most; ++tried) {
     const int cell = next_cell_;
     const PixelRect part = searched_part(cell);
     const double cost_ns = pixel_ns_ * std::max(part.width_px, 0) * std::max(part.height_px, 0);
@@ -53,7 +63,7 @@ std::span<const Corner> NewCorners::find(const ImageView& image, std::span<const
       add_best(image, part, features);
       budget.spend(cost_ns);
     }
-    next_cell_ = (cell + 1) % cells();
+    next_cell_ = (cell + 1) % kCells;
   }
   return found_;
 }
@@ -68,24 +78,23 @@ int NewCorners::cell_of(const Eigen::Vector2d& place) const {
     const double cell = x * cells / size_px;
     return cell > 0.0 ? static_cast<int>(std::min(cell, cells - 1.0)) : 0;
   };
-  return step(place.y(), options_.rows, height_px_) * options_.columns +
-         step(place.x(), options_.columns, width_px_);
+  return step(place.y(), kRows, height_px_) * kColumns + step(place.x(), kColumns, width_px_);
 }
 
 /// The pixels of a cell that have room for a reference patch around them.
 PixelRect NewCorners::searched_part(int cell) const {
   constexpr int kBorder = ReferencePatch::kRadius;
-  const int column = cell % options_.columns, row = cell / options_.columns;
-  const int u = std::max(column * width_px_ / options_.columns, kBorder);
-  const int v = std::max(row * height_px_ / options_.rows, kBorder);
-  return {u, v, std::min((column + 1) * width_px_ / options_.columns, width_px_ - kBorder) - u,
-          std::min((row + 1) * height_px_ / options_.rows, height_px_ - kBorder) - v};
+  const int column = cell % kColumns, row = cell / kColumns;
+  const int u = std::max(column * width_px_ / kColumns, kBorder);
+  const int v = std::max(row * height_px_ / kRows, kBorder);
+  return {u, v, std::min((column + 1) * width_px_ / kColumns, width_px_ - kBorder) - u,
+          std::min((row + 1) * height_px_ / kRows, height_px_ - kBorder) - v};
 }
 
 bool NewCorners::is_far(const Corner& corner, std::span<const Eigen::Vector2d> features) const {
   const Eigen::Vector2d place(corner.u, corner.v);
   const auto is_away = [&](const Eigen::Vector2d& other) {
-    return (other - place).squaredNorm() >= options_.distance_px * options_.distance_px;
+    return (other - place).squaredNorm() >= kMinDistance_px * kMinDistance_px;
   };
   return std::ranges::all_of(features, is_away) && std::ranges::all_of(found_, [&](const Corner& c) {
            return is_away({c.u, c.v});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -34,7 +33,6 @@ class NewCorners {
  private:
   static constexpr std::size_t kRanked = 8;  ///< corners of a cell whose texture is looked at
 
-  [[nodiscard]] int cells() const { return options_.columns * options_.rows; }
   [[nodiscard]] int cell_of(const Eigen::Vector2d& place) const;
   [[nodiscard]] PixelRect searched_part(int cell) const;
   [[nodiscard]] bool is_far(const Corner& corner, std::span<const Eigen::Vector2d> features) const;

@@ -1,7 +1,6 @@
 #include "waymark/vision/patch.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,7 +1,6 @@
 #include "waymark/vision/tracker.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "waymark/vision/subpixel.hpp"
 #include "waymark/vision/usable_image.hpp"
@@ -146,7 +145,7 @@ SearchOutcome Tracker::match() {
   if (is_usable_) search_for(false, options_.max_observed, landmarks_);
   gather(false, landmarks_);
   timer.finish(kMatch);
-  return landmarks_.observations();
+  return landmarks_.outcome();
 }
 
 /// Looks for the most useful of the landmarks, or candidates, that are known.
@@ -199,7 +198,7 @@ SearchOutcome Tracker::finish() {
   counts_.out_of_budget += landmarks_.is_out_of_budget || candidates_.is_out_of_budget;
   gather(true, candidates_);
   add_new_corners();
-  return candidates_.observations();
+  return candidates_.outcome();
 }
 
 void Tracker::add_new_corners() {

@@ -23,24 +23,24 @@
 
 namespace waymark::vision {
 
-/// What was found in an image, and what was looked for in vain. Views into the tracker.
+/// What was found in an image, and what was searched for in vain. Views into the tracker.
 struct SearchOutcome {
   std::span<const Observation> found;
   std::span<const LandmarkId> missed;
 };
 
-/// What is looked for at a time: new corners and candidates at the pose that the landmarks have corrected.
+/// What is searched for at a time: new corners and candidates at the pose that the landmarks have corrected.
 enum class Round { kLandmarks, kCandidates };
 
-/// The camera front end: remembers what landmarks look like, looks for them where they are expected, and
+/// The camera front end: remembers what landmarks look like, searches for them where they are expected, and
 /// proposes new corners where the image has none. Per image one call of track().
 ///
 /// An image that shows nothing (is_usable()) has no observations, and nothing counts as missed in it. Without
 /// new landmarks nothing is allocated from the first image on, nor with them up to VisualMemory::kRoom.
 class Tracker {
  public:
-  /// Candidates and new corners are looked for on a thread of their own where `threads` > 1; the results are
-  /// the same. Half a ms.
+  /// Candidates and new corners are searched for on a thread of their own where `threads` > 1; the results
+  /// are the same. Half a ms.
   Tracker(const TrackerOptions& options, const SearchOptions& search, const Camera& camera, int threads);
 
   /// Looks into an image, taken at the expected pose: for the landmarks, those that tell most for their cost
@@ -83,7 +83,7 @@ class Tracker {
     std::vector<LandmarkId> missed;
     bool is_out_of_budget = false;
 
-    [[nodiscard]] SearchOutcome observations() const { return {found, missed}; }
+    [[nodiscard]] SearchOutcome outcome() const { return {found, missed}; }
   };
 
   void begin(const ImageView& image, const Pose2& T_world_robot, std::span<const Expectation> expectations);
@@ -118,7 +118,7 @@ class Tracker {
   std::vector<Appearance*> appearances_;  ///< of each; null where it is not known
   std::vector<Eigen::Matrix2d> R_;        ///< of each that was found
   std::vector<SearchRecord> search_records_;
-  std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be looked for
+  std::vector<Eigen::Vector2d> features_;  ///< predicted places of those that can be searched for
   int candidates_under_way_ = 0;
   std::span<const Corner> corners_;
   Pose2 T_world_robot_;

@@ -9,7 +9,7 @@
 namespace waymark::vision {
 
 struct TrackerOptions {
-  int max_observed = 30;  ///< landmarks looked for in one image
+  int max_observed = 30;  ///< landmarks searched for in one image
   FinderOptions finder;
   CornerOptions corners;
   NewCornerOptions new_corners;

@@ -17,8 +17,8 @@ struct Appearance {
   WarpedPatch patch;
 };
 
-/// The appearances of all landmarks that are looked for. Allocates only when it holds more than ever before,
-/// and more than kRoom.
+/// The appearances of all landmarks that are searched for. Allocates only when it holds more than ever
+/// before, and more than kRoom.
 class VisualMemory {
  public:
   static constexpr std::size_t kRoom = 128;

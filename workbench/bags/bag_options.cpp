@@ -27,7 +27,8 @@ void describe(Schema& schema, BagOptions& o) {
               "use the bag's",
               Shown::kAlways);
   schema.choice("input.stamps", o.stamps, {"header", "recorded"},
-                "time of a message: from its header, or when it was recorded (for clocks that disagree)");
+                "time of a message: from its header, or when it was recorded (for clocks that disagree)",
+                Shown::kAlways);
 }
 
 }  // namespace waymark

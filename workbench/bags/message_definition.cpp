@@ -47,7 +47,7 @@ std::string_view take_line(std::string_view& text) {
   return line.substr(0, line.find('#'));
 }
 
-/// The texts of a stored definition by type; that of the topic itself comes first and of unknown identity.
+/// The texts of a stored definition by type; that of the topic itself comes first and is not named.
 std::map<std::string, std::string, std::less<>> split(std::string_view text, std::string_view root) {
   constexpr std::string_view kRule = "========";
   constexpr std::string_view kName = "MSG:";

@@ -213,10 +213,10 @@ class Settling {
     before.calibration[kDelay] = before_->sensor.delay_s - run.config.sensor.delay_s;
     const auto smoothed = smooth::smooth(run.recording, run.config, before);
     if (!smoothed) return smoothed.error();
-    if (smoothed->remainders.empty())
+    if (smoothed->observation_residuals.empty())
       return Error{runs_.input() + ": no landmark was observed often enough to estimate the noise"};
-    study_.noise = noise_of(smoothed->remainders);
-    const auto factors = odometry_variance_of(smoothed->interval_remainders);
+    study_.noise = noise_of(smoothed->observation_residuals);
+    const auto factors = odometry_variance_of(smoothed->interval_residuals);
     for (std::size_t i = 0; i < 3; ++i)
       study_.odometry_noise[i] = scaled(study_.odometry_noise[i].value, factors[i]);
     return findings_of(study_.noise, run, *smoothed, *before_);

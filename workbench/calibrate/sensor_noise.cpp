@@ -24,7 +24,7 @@ struct Sample {
   [[nodiscard]] double redundancy() const { return std::max(0.0, 1.0 - followed / stated); }
 };
 
-Sample sample_of(double at, const smooth::Remainder& rest, Eigen::Index i) {
+Sample sample_of(double at, const smooth::ObservationResidual& rest, Eigen::Index i) {
   return {at, -rest.residual[i], rest.followed[i], rest.stated[i]};
 }
 
@@ -143,7 +143,7 @@ SensorNoise noise_of(const std::vector<smooth::SmoothedObservation>& observation
   return noise;
 }
 
-std::array<VarianceFactor, 3> odometry_variance_of(const std::vector<smooth::IntervalRemainder>& intervals) {
+std::array<VarianceFactor, 3> odometry_variance_of(const std::vector<smooth::IntervalResidual>& intervals) {
   std::array<VarianceFactor, 3> factors;
   for (Eigen::Index i = 0; i < 3; ++i) {
     std::vector<Sample> samples;

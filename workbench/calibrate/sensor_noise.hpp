@@ -59,6 +59,6 @@ struct SensorNoise {
 
 /// By how much variances of the odometry, in x, y and theta, are larger than stated; likewise.
 [[nodiscard]] std::array<VarianceFactor, 3> odometry_variance_of(
-    const std::vector<smooth::IntervalRemainder>& intervals);
+    const std::vector<smooth::IntervalResidual>& intervals);
 
 }  // namespace waymark::calibrate

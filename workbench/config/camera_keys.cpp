@@ -65,6 +65,8 @@ void describe(Schema& schema, markers::MarkerOptions& o) {
   schema.real(
       "markers.corner_sigma_px", o.corner_sigma_px, {1e-3, 100.0},
       "standard deviation of marker corners that another program detected, px; for bags without images");
+  schema.real("camera.jitter_deg", o.jitter_deg, {0.0, 10.0},
+              "standard deviation of the camera jitter, drawn anew in every image, degrees");
   schema.integer("markers.confirm", o.confirm, {1, 1000},
                  "number of images, at most 15 apart, in which a new identity must be found before it is "
                  "used; more rejects false positives");

@@ -63,6 +63,8 @@ void describe(Schema& schema, PixelSlamOptions& options) {
               "smallest possible depth of a new landmark, m");
   schema.real("pixel.farthest_m", options.depth.farthest_m, {0.1, 1e6},
               "largest possible depth of a new landmark, m");
+  schema.integer("pixel.max_candidates", options.max_candidates, {1, 100},
+                 "maximum number of new landmarks whose depth is being estimated at once");
 }
 
 void describe(Schema& schema, FastSlamOptions& o) {
@@ -94,10 +96,12 @@ void describe(Schema& schema, SmoothOptions& o) {
                  "odometry is commanded, not measured: the robot deviates from exact commands");
   schema.real("smooth.keyframe_distance_m", o.keyframe_distance_m, {0.0, 1000.0},
               "minimum distance between keyframes, m; observations before that and smooth.keyframe_turn_deg "
-              "are left out; 0 keeps all");
+              "are left out; 0 keeps all",
+              Shown::kAlways);
   schema.real("smooth.keyframe_turn_deg", o.keyframe_turn_deg, {0.0, 360.0},
               "minimum turn between keyframes, degrees; a keyframe is made once distance or turn is reached; "
-              "0 keeps all");
+              "0 keeps all",
+              Shown::kAlways);
   schema.real("smooth.turn_per_m_sigma_deg", o.turn_per_m_sigma_deg, {0.0, 1000.0},
               "standard deviation of a turn bias per metre driven (wheels of different size), degrees per "
               "metre; 0: not estimated");
@@ -108,6 +112,14 @@ void describe(Schema& schema, SmoothOptions& o) {
               "sensor.shared_bearing_sigma_deg, degrees; 0: nothing to add");
   schema.real("smooth.delay_sigma_s", o.delay_sigma_s, {0.0, 10.0},
               "standard deviation of sensor.delay_s, s; 0: not estimated");
+  schema.real("motion.speed_scale_sigma", o.speed_scale_sigma, {0.0, 1.0},
+              "relative standard deviation of motion.speed_scale, where ekf.calibrate_odometry or smooth.run "
+              "estimate it; 0: not estimated");
+  schema.real("motion.turn_scale_sigma", o.turn_scale_sigma, {0.0, 1.0},
+              "relative standard deviation of motion.turn_scale, where it is estimated; 0: not estimated");
+  schema.real("motion.turn_bias_sigma_degps", o.turn_bias_sigma_degps, {0.0, 100.0},
+              "standard deviation of motion.turn_bias_degps, where it is estimated, degrees per second; 0: "
+              "not estimated");
 }
 
 }  // namespace waymark

@@ -34,13 +34,15 @@ void describe(Schema& schema, OdometryOptions& o) {
               "turn rate that the odometry misses while the robot moves, degrees per second; is added to it");
   schema.real("motion.standing_below_mps", o.standing.below_mps, {0.0, 10.0},
               "speed below which the robot stands if it also turns by less than 0.02 rad/s, m/s; the turn "
-              "rate then is a bias and is subtracted; 0 disables this");
+              "rate then is a bias and is subtracted; 0 disables this",
+              Shown::kAlways);
   schema.real(
       "motion.outer_point_m", o.outer_point_m, {0.0, 10.0},
       "lateral offset of the speed reference point from the robot's origin, on the outside of a turn, m");
   schema.real("motion.response_s", o.response_s, {-10.0, 10.0},
               "time from the stamp of a motion to the motion itself, s; above 0 for commands, which a robot "
-              "follows late");
+              "follows late",
+              Shown::kAlways);
 }
 
 void describe(Schema& schema, LandmarkSensor& s) {
@@ -51,8 +53,9 @@ void describe(Schema& schema, LandmarkSensor& s) {
   schema.real("sensor.yaw_deg", s.yaw_deg, {-360.0, 360.0},
               "yaw of the landmark sensor on the robot, degrees, positive to the left", Shown::kAlways);
   schema.real("sensor.range_scale", s.range_scale, {0.1, 10.0},
-              "scale of ranges: reported range = scale * true range + sensor.range_offset_m");
-  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0}, "offset of ranges, m");
+              "scale of ranges: reported range = scale * true range + sensor.range_offset_m", Shown::kAlways);
+  schema.real("sensor.range_offset_m", s.range_offset_m, {-100.0, 100.0}, "offset of ranges, m",
+              Shown::kAlways);
   schema.boolean("sensor.range_is_depth", s.range_is_depth,
                  "ranges are depths along the sensor's axis, as from a camera that measures apparent size");
   schema.real("sensor.range_sigma_m", s.range_sigma_m, {1e-6, 1e3}, "standard deviation of a range, m",
@@ -63,18 +66,22 @@ void describe(Schema& schema, LandmarkSensor& s) {
               "standard deviation of a bearing, degrees", Shown::kAlways);
   schema.real("sensor.shared_range_sigma_ratio", s.errors.shared_range_sigma_ratio, {0.0, 1.0},
               "standard deviation of the range scale that all observations share (calibration), relative; "
-              "both filters estimate it; 0: no such error");
+              "both filters estimate it; 0: no such error",
+              Shown::kAlways);
   schema.real("sensor.shared_range_sigma_m", s.errors.shared_range_sigma_m, {0.0, 100.0},
-              "standard deviation of the range offset that all observations share, m; 0: no such error");
+              "standard deviation of the range offset that all observations share, m; 0: no such error",
+              Shown::kAlways);
   schema.real(
       "sensor.shared_bearing_sigma_deg", s.errors.shared_bearing_sigma_deg, {0.0, 90.0},
       "standard deviation of the bearing offset that all observations share, degrees; 0: no such error");
   schema.real("sensor.bias_range_sigma_ratio", s.errors.bias_range_sigma_ratio, {0.0, 1.0},
               "standard deviation of the Gauss-Markov bias of the ranges to one landmark, per metre of "
-              "range; 0: no bias");
+              "range; 0: no bias",
+              Shown::kAlways);
   schema.real(
       "sensor.bias_bearing_sigma_deg", s.errors.bias_bearing_sigma_deg, {0.0, 90.0},
-      "standard deviation of the Gauss-Markov bias of the bearings to one landmark, degrees; 0: no bias");
+      "standard deviation of the Gauss-Markov bias of the bearings to one landmark, degrees; 0: no bias",
+      Shown::kAlways);
   schema.real("sensor.bias_distance_m", s.errors.bias_distance_m, {1e-3, 1e3},
               "distance travelled in which a Gauss-Markov bias decays to 37 % (1/e), m");
   schema.real("sensor.min_range_m", s.min_range_m, {0.0, 1e6}, "minimum range, m; shorter ones are dropped");
@@ -85,7 +92,7 @@ void describe(Schema& schema, LandmarkSensor& s) {
       "sensor.detection_probability", s.detection_probability, {0.0, 0.999},
       "probability that a landmark in range and field of view is observed; 0 disables negative information");
   schema.real("sensor.delay_s", s.delay_s, {-10.0, 10.0},
-              "delay of the stamps: time of the stamp less time of the observation, s");
+              "delay of the stamps: time of the stamp less time of the observation, s", Shown::kAlways);
 }
 
 void describe(Schema& schema, CameraOptions& o) {

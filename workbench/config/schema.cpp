@@ -13,6 +13,7 @@
 
 #include "workbench/config/flat_yaml.hpp"
 #include "workbench/config/former_keys.hpp"
+#include "workbench/config/key_parts.hpp"
 #include "workbench/config/read_file.hpp"
 
 namespace waymark {
@@ -59,44 +60,33 @@ void Schema::add(Key key) {
 }
 
 template <class Number>
-void Schema::add_number(std::string name, std::vector<Number*> fields, ValueLimits limits,
-                        std::string allowed, std::string help, Shown shown) {
-  auto get = [field = fields.front()] { return fmt::format("{}", *field); };
-  auto set = [fields = std::move(fields), limits](std::string_view text) {
+void Schema::add_number(std::string name, Number& field, ValueLimits limits, std::string allowed,
+                        std::string help, Shown shown) {
+  auto set = [&field, limits](std::string_view text) {
     const auto number = parse_number<Number>(text);
     const bool is_allowed =
         number && static_cast<double>(*number) >= limits.low && static_cast<double>(*number) <= limits.high;
-    if (!is_allowed) return false;
-    for (Number* const field : fields) *field = *number;
-    return true;
+    if (is_allowed) field = *number;
+    return is_allowed;
   };
-  add({std::move(name), std::move(help), std::move(allowed), std::move(get), std::move(set), shown});
-}
-
-void Schema::real(std::string name, std::vector<double*> fields, ValueLimits limits, std::string help,
-                  Shown shown) {
-  add_number(std::move(name), std::move(fields), limits, describe_limits(limits), std::move(help), shown);
-  keys_.back().limits = limits;
+  add({std::move(name), std::move(help), std::move(allowed), [&field] { return fmt::format("{}", field); },
+       std::move(set), shown});
 }
 
 void Schema::real(std::string name, double& field, ValueLimits limits, std::string help, Shown shown) {
-  real(std::move(name), std::vector{&field}, limits, std::move(help), shown);
-}
-
-void Schema::integer(std::string name, std::vector<int*> fields, ValueLimits limits, std::string help,
-                     Shown shown) {
-  add_number(std::move(name), std::move(fields), limits, "whole number, " + describe_limits(limits),
-             std::move(help), shown);
+  add_number(std::move(name), field, limits, describe_limits(limits), std::move(help), shown);
+  keys_.back().limits = limits;
 }
 
 void Schema::integer(std::string name, int& field, ValueLimits limits, std::string help, Shown shown) {
-  integer(std::move(name), std::vector{&field}, limits, std::move(help), shown);
+  add_number(std::move(name), field, limits, "whole number, " + describe_limits(limits), std::move(help),
+             shown);
 }
 
 void Schema::integer(std::string name, std::uint64_t& field, ValueLimits limits, std::string help,
                      Shown shown) {
-  add_number(std::move(name), std::vector{&field}, limits, "whole number, " + describe_limits(limits),
-             std::move(help), shown);
+  add_number(std::move(name), field, limits, "whole number, " + describe_limits(limits), std::move(help),
+             shown);
 }
 
 void Schema::boolean(std::string name, std::function<bool()> get, std::function<void(bool)> set,
@@ -151,7 +141,6 @@ std::vector<std::string> Schema::keys() const {
 
 std::vector<std::string> Schema::close_keys(std::string_view name, std::size_t count) const {
   // The last part counts as much as the whole: sections are what is left out or mistaken.
-  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
   const auto distance = [&](const std::string& key) {
     return std::min(edit_distance(name, key), edit_distance(last_part(name), last_part(key)));
   };
@@ -173,7 +162,6 @@ std::string Schema::value(std::string_view key) const { return find(key)->get();
 
 /// A key typed without its section, or with a wrong one, is nearest to the key with the same last part.
 std::string Schema::nearest(std::string_view name) const {
-  const auto last_part = [](std::string_view key) { return key.substr(key.rfind('.') + 1); };
   std::vector<std::string> same;
   for (const auto& key : keys_)
     if (last_part(key.name) == last_part(name)) same.push_back(key.name);
@@ -230,20 +218,19 @@ Result<void> Schema::load_file(const std::filesystem::path& path) {
 }
 
 std::string Schema::to_yaml(const std::function<bool(const std::string&)>& is_wanted) const {
-  // "section." of a key, "" where it has none: npos + 1 is 0.
-  const auto section_of = [](const Key& key) { return key.name.substr(0, key.name.find('.') + 1); };
   std::vector<const Key*> wanted;
   for (const auto& key : keys_)
     if (!is_wanted || is_wanted(key.name)) wanted.push_back(&key);
-  std::vector<std::string> sections;
+  std::vector<std::string_view> sections;
   for (const Key* key : wanted)
-    if (std::ranges::find(sections, section_of(*key)) == sections.end()) sections.push_back(section_of(*key));
+    if (std::ranges::find(sections, section_of(key->name)) == sections.end())
+      sections.push_back(section_of(key->name));
   std::string yaml;
-  for (const auto& section : sections) {
-    if (!section.empty()) yaml += "\n" + section.substr(0, section.size() - 1) + ":\n";
+  for (const std::string_view section : sections) {
+    if (!section.empty()) yaml += fmt::format("\n{}:\n", section.substr(0, section.size() - 1));
     const std::string indent = section.empty() ? "" : "  ";
     for (const Key* key : wanted) {
-      if (section_of(*key) != section) continue;
+      if (section_of(key->name) != section) continue;
       yaml += fmt::format("{}# {} ({}; default {})\n", indent, key->help, key->allowed,
                           key->default_value.empty() ? "empty" : yaml_scalar(key->default_value));
       yaml += fmt::format("{}{}: {}\n", indent, key->name.substr(section.size()), yaml_scalar(key->get()));

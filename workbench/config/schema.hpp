@@ -36,14 +36,9 @@ class Schema {
  public:
   void real(std::string name, double& field, ValueLimits limits, std::string help,
             Shown shown = Shown::kOnRequest);
-  /// One key for fields of several structs that mean the same and have the same default.
-  void real(std::string name, std::vector<double*> fields, ValueLimits limits, std::string help,
-            Shown shown = Shown::kOnRequest);
   void integer(std::string name, int& field, ValueLimits limits, std::string help,
                Shown shown = Shown::kOnRequest);
   void integer(std::string name, std::uint64_t& field, ValueLimits limits, std::string help,
-               Shown shown = Shown::kOnRequest);
-  void integer(std::string name, std::vector<int*> fields, ValueLimits limits, std::string help,
                Shown shown = Shown::kOnRequest);
   void boolean(std::string name, bool& field, std::string help, Shown shown = Shown::kOnRequest);
   /// One key for a choice that is made of several fields.
@@ -105,8 +100,8 @@ class Schema {
 
   void add(Key key);
   template <class Number>
-  void add_number(std::string name, std::vector<Number*> fields, ValueLimits limits, std::string allowed,
-                  std::string help, Shown shown);
+  void add_number(std::string name, Number& field, ValueLimits limits, std::string allowed, std::string help,
+                  Shown shown);
   void add_choice(std::string name, std::vector<std::string> names, std::string help, Shown shown,
                   std::function<std::size_t()> get, std::function<void(std::size_t)> set);
   [[nodiscard]] const Key* find(std::string_view name) const;

@@ -47,8 +47,9 @@ std::vector<double> residuals(Points from, Points to, const Pose2& T_to_from) {
   return lengths;
 }
 
-/// The best of the motions that two matches alone would give, by the median residual.
-Pose2 min_median_motion(Points from, Points to) {
+/// Least median of squares: the best of the motions that two matches alone would give, by the median
+/// residual.
+Pose2 least_median_motion(Points from, Points to) {
   constexpr std::size_t kMaxPairs = 2000;
   const std::size_t n = from.size();
   const std::size_t stride = 1 + n * (n - 1) / 2 / kMaxPairs;
@@ -95,7 +96,7 @@ std::optional<Pose2> align_rigid(Points from, Points to) {
 std::optional<Pose2> align_rigid_robust(Points from, Points to) {
   if (from.size() < 3 || from.size() != to.size()) return std::nullopt;
   constexpr int kRefits = 5;
-  Pose2 T = min_median_motion(from, to);
+  Pose2 T = least_median_motion(from, to);
   for (int i = 0; i < kRefits; ++i) T = refit(from, to, T);
   return T;
 }

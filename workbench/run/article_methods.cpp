@@ -12,14 +12,15 @@ bool uses_article_methods(const Config& config) {
 }
 
 void use_article_methods(Config& config, bool use) {
-  config.odometry.arc = use ? ArcModel::kArticle : ArcModel::kExact;
-  config.search.match = use ? vision::MatchScore::kArticle : vision::MatchScore::kMap;
-  config.tracker.finder.warp = config.tracker.finder.subpixel = !use;
-  config.tracker.instructions = use ? kernels::Instructions::kScalar : kernels::Instructions::kSimd;
-  config.pixel.init = use ? ekf::Initialization::kArticle : ekf::Initialization::kDelayed;
-  config.pixel.depth.spacing =
-      use ? ekf::DepthPrior::Spacing::kDepth : ekf::DepthPrior::Spacing::kInverseDepth;
-  config.pixel.update = use ? UpdateMethod::kTextbook : UpdateMethod::kFast;
+  const Config usual;
+  config.odometry.arc = use ? ArcModel::kArticle : usual.odometry.arc;
+  config.search.match = use ? vision::MatchScore::kArticle : usual.search.match;
+  config.tracker.finder.warp = !use && usual.tracker.finder.warp;
+  config.tracker.finder.subpixel = !use && usual.tracker.finder.subpixel;
+  config.tracker.instructions = use ? kernels::Instructions::kScalar : usual.tracker.instructions;
+  config.pixel.init = use ? ekf::Initialization::kArticle : usual.pixel.init;
+  config.pixel.depth.spacing = use ? ekf::DepthPrior::Spacing::kDepth : usual.pixel.depth.spacing;
+  config.pixel.update = use ? UpdateMethod::kTextbook : usual.pixel.update;
 }
 
 }  // namespace waymark

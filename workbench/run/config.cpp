@@ -1,6 +1,7 @@
 #include "workbench/run/config.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "workbench/config/camera_keys.hpp"
@@ -45,9 +46,25 @@ bool sets_mount(const Schema& schema) {
   });
 }
 
-Result<std::unique_ptr<Source>> open(const std::string& input, const UserSettings& user) {
-  if (input.starts_with(kSimulationPrefix))
-    return open_simulation(input.substr(kSimulationPrefix.size()), user);
+/// The scenario that an input names, if it is a simulation.
+std::optional<std::string> scenario_of(const std::string& input) {
+  if (!input.starts_with(kSimulationPrefix)) return std::nullopt;
+  return input.substr(kSimulationPrefix.size());
+}
+
+/// A scenario's world, changed by the user.
+Result<std::unique_ptr<Source>> simulate(const std::string& scenario, const sim::SimOptions& world,
+                                         const UserSettings& user) {
+  Config config;
+  config.sim = world;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done.error();
+  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed, config.threads);
+  if (!simulation) return simulation.error();
+  return std::unique_ptr<Source>(std::move(*simulation));
+}
+
+Result<std::unique_ptr<Source>> open_log(const std::string& input, const UserSettings& user) {
   Config config;
   Schema schema = describe(config);
   if (auto done = apply(schema, user); !done) return done.error();
@@ -76,35 +93,6 @@ void put_sensor_at_camera(Config& config) {
 }  // namespace
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
-
-namespace {
-
-/// Keys that set options of several parts.
-void describe_shared(Schema& schema, Config& config) {
-  OdometryStateOptions& live = config.ekf.odometry;
-  SmoothOptions& smooth = config.smooth;
-  schema.real("motion.speed_scale_sigma", {&live.speed_scale_sigma, &smooth.speed_scale_sigma}, {0.0, 1.0},
-              "relative standard deviation of motion.speed_scale, where ekf.calibrate_odometry or smooth.run "
-              "estimate it; 0: not estimated");
-  schema.real("motion.turn_scale_sigma", {&live.turn_scale_sigma, &smooth.turn_scale_sigma}, {0.0, 1.0},
-              "relative standard deviation of motion.turn_scale, where it is estimated; 0: not estimated");
-  schema.real("motion.turn_bias_sigma_degps", {&live.turn_bias_sigma_degps, &smooth.turn_bias_sigma_degps},
-              {0.0, 100.0},
-              "standard deviation of motion.turn_bias_degps, where it is estimated, degrees per second; 0: "
-              "not estimated");
-  schema.real("camera.jitter_deg", {&config.pixel.jitter_deg, &config.markers.jitter_deg}, {0.0, 10.0},
-              "standard deviation of the camera jitter, drawn anew in every image, degrees");
-  schema.integer("pixel.max_candidates",
-                 {&config.pixel.max_candidates, &config.tracker.new_corners.max_candidates}, {1, 100},
-                 "maximum number of new landmarks whose depth is being estimated at once");
-  schema.boolean(
-      "pixel.article", [&config] { return uses_article_methods(config); },
-      [&config](bool use) { use_article_methods(config, use); },
-      "use the algorithms of Vincke et al. 2012, for comparison; needs observe=pixel and "
-      "ekf.consistency=standard");
-}
-
-}  // namespace
 
 Schema describe(Config& config) {
   Schema schema;
@@ -136,7 +124,11 @@ Schema describe(Config& config) {
   describe(schema, config.markers);
   describe(schema, config.fastslam);
   describe(schema, config.smooth);
-  describe_shared(schema, config);
+  schema.boolean(
+      "pixel.article", [&config] { return uses_article_methods(config); },
+      [&config](bool use) { use_article_methods(config, use); },
+      "use the algorithms of Vincke et al. 2012, for comparison; needs observe=pixel and "
+      "ekf.consistency=standard");
   sim::describe(schema, config.sim);
   return schema;
 }
@@ -149,23 +141,20 @@ Result<Config> resolve_config(const UserSettings& user) {
 }
 
 Result<std::unique_ptr<Source>> open_simulation(const std::string& scenario, const UserSettings& user) {
-  auto world = sim::scenario(scenario);
-  if (!world) return world.error();
-  Config config;
-  config.sim = *world;
-  Schema schema = describe(config);
-  if (auto done = apply(schema, user); !done) return done.error();
-  auto simulation = sim::Simulation::make(scenario, config.sim, config.seed, config.threads);
-  if (!simulation) return simulation.error();
-  return std::unique_ptr<Source>(std::move(*simulation));
+  const auto world = sim::scenario(scenario);
+  return world ? simulate(scenario, *world, user) : world.error();
 }
 
 Result<OpenedInput> open_input(const std::string& input, const UserSettings& user) {
-  auto source = open(input, user);
-  if (!source) return source.error();
   Config config;
-  if (input.starts_with(kSimulationPrefix))
-    config.sim = *sim::scenario(input.substr(kSimulationPrefix.size()));
+  const auto scenario = scenario_of(input);
+  if (scenario) {
+    const auto world = sim::scenario(*scenario);
+    if (!world) return world.error();
+    config.sim = *world;
+  }
+  auto source = scenario ? simulate(*scenario, config.sim, user) : open_log(input, user);
+  if (!source) return source.error();
   Schema schema = describe(config);
   const LogInfo& log = (*source)->info();
   if (auto done = apply(schema, user.defaults, "defaults"); !done) return done.error();

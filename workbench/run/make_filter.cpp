@@ -31,6 +31,10 @@ EkfOptions ekf_options(const Config& config, const std::optional<MapState>& star
   EkfOptions options = config.ekf;
   options.capacity = capacity_of(config, options.capacity);
   options.gate = config.gate;
+  // One calibration with one prior, whoever estimates it.
+  options.odometry.speed_scale_sigma = config.smooth.speed_scale_sigma;
+  options.odometry.turn_scale_sigma = config.smooth.turn_scale_sigma;
+  options.odometry.turn_bias_sigma_degps = config.smooth.turn_bias_sigma_degps;
   if (config.associate != Association::kKnown)
     options.unknown = UnknownAssociation{config.associate == Association::kJcbb, config.association};
   if (!observes_scale(config.observe, config.sensor.errors)) options.odometry.speed_scale_sigma = 0.0;
@@ -56,9 +60,12 @@ Result<FilterSystem> make_pixel_ekf(const Config& config, const std::optional<Ma
   PixelSlamOptions options = config.pixel;
   options.capacity = capacity_of(config, options.capacity);
   options.consistency = config.ekf.consistency;
+  options.jitter_deg = config.markers.jitter_deg;  // of the camera, whatever it looks for
+  vision::TrackerOptions tracker = config.tracker;
+  tracker.new_corners.max_candidates = options.max_candidates;
   auto filter = std::make_unique<PixelSlam>(options, config.camera, config.threads);
-  auto front_end = std::make_unique<CornerFrontEnd>(*filter, config.tracker, config.search,
-                                                    Camera(config.camera), config.threads);
+  auto front_end = std::make_unique<CornerFrontEnd>(*filter, tracker, config.search, Camera(config.camera),
+                                                    config.threads);
   if (start) {
     if (auto loaded = filter->load(*start); !loaded) return loaded.error();
     front_end->remember(start->patches);
@@ -73,9 +80,6 @@ Result<FilterSystem> make_ekf(const Config& config, const std::optional<MapState
     return Error{
         "associate: observations by pixel, range alone or bearing alone need identities; set "
         "associate=known"};
-  if (config.pixel.update == UpdateMethod::kTextbook &&
-      (config.observe != Observe::kPixel || config.ekf.consistency != ekf::Consistency::kStandard))
-    return Error{"pixel.article: needs observe=pixel and ekf.consistency=standard"};
   if (config.ekf.odometry.estimate &&
       (config.observe == Observe::kPixel || config.ekf.compressed == Compress::kAlways))
     return Error{
@@ -103,9 +107,18 @@ Result<FilterSystem> make_fastslam(const Config& config) {
   return FilterSystem{std::make_unique<FastSlam>(options, config.sensor, config.threads), nullptr};
 }
 
+/// The methods of the article are those of one filter.
+Result<void> check_article_methods(const Config& config) {
+  if (config.pixel.update != UpdateMethod::kTextbook ||
+      (config.observe == Observe::kPixel && config.ekf.consistency == ekf::Consistency::kStandard))
+    return {};
+  return Error{"pixel.article: needs observe=pixel and ekf.consistency=standard"};
+}
+
 /// Without what finds markers.
 Result<FilterSystem> make_without_markers(const Config& config, const std::optional<MapState>& start) {
   if (auto fits = check_capacity(config); !fits) return fits.error();
+  if (auto fits = check_article_methods(config); !fits) return fits.error();
   return config.filter == FilterKind::kEkf ? make_ekf(config, start) : make_fastslam(config);
 }
 

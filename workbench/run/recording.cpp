@@ -66,8 +66,8 @@ void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
   if (step.correction == nullptr) return;
-  if (step.frame != nullptr && front_end != nullptr)
-    recording.image_strip.add(step.stamp, *step.frame, front_end->search_records(),
+  if (step.image != nullptr && front_end != nullptr)
+    recording.image_strip.add(step.stamp, *step.image, front_end->search_records(),
                               step.correction->innovations);
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)

@@ -149,9 +149,9 @@ Eigen::Vector3d velocity_at(const Recording& recording, std::size_t step) {
 
 /// What observations of one landmark have in common is not estimated here and counts as noise.
 Eigen::Matrix2d white_covariance(const Observation& observation, const LandmarkSensor& sensor) {
-  LandmarkSensor bias = sensor;
-  bias.errors.shared_range_sigma_ratio = bias.errors.shared_bearing_sigma_deg = 0.0;
-  return *observation.covariance + noise_covariance(with_white_errors(bias), observation.value) -
+  LandmarkSensor without_shared = sensor;
+  without_shared.errors.shared_range_sigma_ratio = without_shared.errors.shared_bearing_sigma_deg = 0.0;
+  return *observation.covariance + noise_covariance(with_white_errors(without_shared), observation.value) -
          noise_covariance(sensor, observation.value);
 }
 
@@ -258,7 +258,6 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   RunGraph run = graph_of(recording, config, before);
   SolveOptions options;
   options.robust_dof = config.smooth.robust_dof;
-  options.max_iterations = config.smooth.max_iterations;
   const Solution solution = solve(run.graph, run.start, options);
   Smoothed smoothed;
   smoothed.trajectory = Bender(recording, run, solution).path();
@@ -270,9 +269,10 @@ Result<Smoothed> smooth(const Recording& recording, const Config& config, const 
   smoothed.converged = solution.converged;
   smoothed.steps = std::move(run.steps);
   smoothed.observations = run.graph.observations.size();
-  smoothed.interval_remainders = solution.interval_remainders;
-  for (std::size_t i = 0; i < solution.remainders.size(); ++i)
-    smoothed.remainders.push_back({run.graph.observations[i].value, solution.remainders[i]});
+  smoothed.interval_residuals = solution.interval_residuals;
+  for (std::size_t i = 0; i < solution.observation_residuals.size(); ++i)
+    smoothed.observation_residuals.push_back(
+        {run.graph.observations[i].value, solution.observation_residuals[i]});
   smoothed.cpu = thread_cpu_time() - start;
   return smoothed;
 }

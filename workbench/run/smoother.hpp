@@ -12,10 +12,10 @@
 
 namespace waymark::smooth {
 
-/// An observation of a landmark of the map, and what is left over of it.
+/// An observation of a landmark of the map, and its residual after the fit.
 struct SmoothedObservation {
   Measurement measured;
-  Remainder remainder;
+  ObservationResidual postfit;
 };
 
 /// What a whole log says, each pose by what came before and after it.
@@ -28,8 +28,9 @@ struct Smoothed {
   bool converged = false;
   std::vector<std::size_t> steps;  ///< of the run, whose poses were estimated: something was seen there
   std::size_t observations = 0;    ///< of landmarks of the map
-  std::vector<SmoothedObservation> remainders;  ///< of these; empty where there were too many for covariances
-  std::vector<IntervalRemainder> interval_remainders;  ///< of the odometry between these poses; likewise
+  std::vector<SmoothedObservation>
+      observation_residuals;  ///< of these; empty where there were too many for covariances
+  std::vector<IntervalResidual> interval_residuals;  ///< of the odometry between these poses; likewise
   Duration cpu{0};
 };
 

@@ -57,15 +57,16 @@ HWY_INLINE Floats normal_from(Words word, Floats scale) {
   return hn::Mul(hn::ConvertTo(kFloats, centred), scale);
 }
 
-void noise_lanes(const ImageNoiseModel& d, std::uint32_t row, std::size_t count, float* noise) {
+void noise_lanes(const ImageNoiseModel& model, std::uint32_t row, std::size_t count, float* noise) {
   const WordTag words;
   const std::size_t lanes = hn::Lanes(words);
-  const auto scale = all(d.noise_grey / kSumSigma);
+  const auto scale = all(model.noise_grey / kSumSigma);
   for (std::size_t group = 0; group < round_up_pixels(count); group += kNoisePixels) {
     for (std::size_t j = 0; j < kCounters; j += lanes) {
       const auto counter = hn::Iota(words, static_cast<std::uint32_t>(group / 4 + j));
       const PhiloxWords random = philox(
-          {counter, hn::Set(words, d.purpose << 24), hn::Set(words, d.frame), hn::Set(words, row)}, d.seed);
+          {counter, hn::Set(words, model.purpose << 24), hn::Set(words, model.frame), hn::Set(words, row)},
+          model.seed);
       float* out = noise + group + j;
       hn::Store(normal_from(random.w0, scale), kFloats, out);
       hn::Store(normal_from(random.w1, scale), kFloats, out + kCounters);
@@ -77,23 +78,24 @@ void noise_lanes(const ImageNoiseModel& d, std::uint32_t row, std::size_t count,
 
 // No fused multiply-add: every processor is to see the same image.
 template <class PairAt>
-HWY_INLINE Floats weigh(const ImageNoiseModel& d, Floats middle, PairAt pair_at) {
-  auto sum = hn::Mul(all(d.weights[0]), middle);
-  for (int k = 1; k <= kBlurRadiusMax; ++k) sum = hn::Add(sum, hn::Mul(all(d.weights[k]), pair_at(k)));
+HWY_INLINE Floats weigh(const ImageNoiseModel& model, Floats middle, PairAt pair_at) {
+  auto sum = hn::Mul(all(model.weights[0]), middle);
+  for (int k = 1; k <= kBlurRadiusMax; ++k) sum = hn::Add(sum, hn::Mul(all(model.weights[k]), pair_at(k)));
   return sum;
 }
 
-HWY_INLINE void blur_down(const ImageNoiseModel& d, const float* const* rows, std::size_t count, float* out) {
+HWY_INLINE void blur_down(const ImageNoiseModel& model, const float* const* rows, std::size_t count,
+                          float* out) {
   const float* const* middle = rows + kBlurRadiusMax;
   for (std::size_t i = 0; i < count; i += hn::Lanes(kFloats)) {
     const auto pair_at = [&](int k) {
       return hn::Add(hn::Load(kFloats, middle[-k] + i), hn::Load(kFloats, middle[k] + i));
     };
-    hn::Store(weigh(d, hn::Load(kFloats, *middle + i), pair_at), kFloats, out + i);
+    hn::Store(weigh(model, hn::Load(kFloats, *middle + i), pair_at), kFloats, out + i);
   }
 }
 
-HWY_INLINE void blur_across_and_expose(const ImageNoiseModel& d, const float* light, const float* noise,
+HWY_INLINE void blur_across_and_expose(const ImageNoiseModel& model, const float* light, const float* noise,
                                        std::size_t count, std::uint8_t* out) {
   const hn::Rebind<std::uint8_t, FloatTag> bytes;
   for (std::size_t i = 0; i < count; i += hn::Lanes(kFloats)) {
@@ -101,21 +103,21 @@ HWY_INLINE void blur_across_and_expose(const ImageNoiseModel& d, const float* li
     const auto pair_at = [&](int k) {
       return hn::Add(hn::LoadU(kFloats, middle - k), hn::LoadU(kFloats, middle + k));
     };
-    const auto blurred = weigh(d, hn::Load(kFloats, middle), pair_at);
-    const auto grey = hn::Add(hn::Mul(all(d.gain), blurred), hn::Load(kFloats, noise + i));
+    const auto blurred = weigh(model, hn::Load(kFloats, middle), pair_at);
+    const auto grey = hn::Add(hn::Mul(all(model.gain), blurred), hn::Load(kFloats, noise + i));
     const auto clamped = hn::Min(hn::Max(grey, hn::Zero(kFloats)), all(255.0F));
     hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(clamped)), bytes, out + i);
   }
 }
 
-void apply_image_noise_lanes(const ImageNoiseModel& d, std::uint32_t row, const float* const* rows,
+void apply_image_noise_lanes(const ImageNoiseModel& model, std::uint32_t row, const float* const* rows,
                              std::size_t width, float* scratch, float* noise, std::uint8_t* out) {
   const std::size_t count = round_up_pixels(width);
   float* light = scratch + kMargin;
-  noise_lanes(d, row, width, noise);
-  blur_down(d, rows, count, light);
+  noise_lanes(model, row, width, noise);
+  blur_down(model, rows, count, light);
   extend_sides(light, width);
-  blur_across_and_expose(d, light, noise, count, out);
+  blur_across_and_expose(model, light, noise, count, out);
 }
 
 }  // namespace waymark::kernels::HWY_NAMESPACE
@@ -140,11 +142,11 @@ void apply_image_noise(const ImageNoiseModel& noise_model, std::uint32_t row, co
 namespace reference {
 namespace {
 
-std::uint32_t philox_word(std::uint32_t counter, std::uint32_t row, const ImageNoiseModel& d,
+std::uint32_t philox_word(std::uint32_t counter, std::uint32_t row, const ImageNoiseModel& model,
                           std::size_t word) {
-  std::uint32_t c[4] = {counter, d.purpose << 24, d.frame, row};
-  auto key0 = static_cast<std::uint32_t>(d.seed);
-  auto key1 = static_cast<std::uint32_t>(d.seed >> 32);
+  std::uint32_t c[4] = {counter, model.purpose << 24, model.frame, row};
+  auto key0 = static_cast<std::uint32_t>(model.seed);
+  auto key1 = static_cast<std::uint32_t>(model.seed >> 32);
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{0xD2511F53} * c[0];
     const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * c[2];

@@ -27,7 +27,7 @@ void apply_image_noise(const ImageNoiseModel& noise_model, std::uint32_t row, co
                        std::size_t width, float* scratch, float* noise, std::uint8_t* out);
 
 /// `count` random numbers of one row of an image, rounded up to kNoisePixels: sums of four bytes, so that
-/// tails end at 3.4 sigma; mean 0 and the standard deviation of the development. Pixel 64 g + 16 k + j gets
+/// tails end at 3.4 sigma; mean 0 and standard deviation noise_model.noise_grey. Pixel 64 g + 16 k + j gets
 /// word k of philox4x32({16 g + j, purpose << 24, frame, row}, seed).
 void draw_pixel_noise(const ImageNoiseModel& noise_model, std::uint32_t row, std::size_t count, float* noise);
 

@@ -27,15 +27,15 @@ Duration exposure(const CameraSimulatorOptions& options) {
 }
 
 kernels::ImageNoiseModel noise_model(const CameraSimulatorOptions& options, std::uint64_t seed) {
-  kernels::ImageNoiseModel d{.noise_grey = static_cast<float>(options.noise_grey),
-                             .seed = seed,
-                             .purpose = static_cast<std::uint32_t>(StreamPurpose::kImages)};
+  kernels::ImageNoiseModel model{.noise_grey = static_cast<float>(options.noise_grey),
+                                 .seed = seed,
+                                 .purpose = static_cast<std::uint32_t>(StreamPurpose::kImages)};
   const double s = std::max(options.lens_blur_px, 1e-3);
   double sum = 0.0;
   const auto weight = [s](int k) { return std::exp(-0.5 * k * k / (s * s)); };
   for (int k = -kernels::kBlurRadiusMax; k <= kernels::kBlurRadiusMax; ++k) sum += weight(k);
-  for (int k = 0; k <= kernels::kBlurRadiusMax; ++k) d.weights[k] = static_cast<float>(weight(k) / sum);
-  return d;
+  for (int k = 0; k <= kernels::kBlurRadiusMax; ++k) model.weights[k] = static_cast<float>(weight(k) / sum);
+  return model;
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ GreyImage CameraSimulator::take(std::size_t image) {
   kernels::ImageNoiseModel how = noise_model(options_, seed_);
   how.gain = static_cast<float>(brightness(middle));
   how.frame = static_cast<std::uint32_t>(image);
-  return renderer_.develop(how);
+  return renderer_.apply_image_noise(how);
 }
 
 }  // namespace waymark::sim

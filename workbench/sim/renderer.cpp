@@ -313,7 +313,7 @@ void Renderer::expose(const std::vector<SummedMipmap>& textures, const std::vect
   });
 }
 
-GreyImage Renderer::develop(const kernels::ImageNoiseModel& noise_model) {
+GreyImage Renderer::apply_image_noise(const kernels::ImageNoiseModel& noise_model) {
   const int height = camera_.height_px();
   const auto width = static_cast<std::size_t>(camera_.width_px());
   GreyImage image(camera_.width_px(), height);

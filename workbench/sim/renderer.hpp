@@ -43,8 +43,8 @@ class Renderer {
   /// Adds `weight` times what is seen from a viewpoint.
   void expose(const std::vector<SummedMipmap>& textures, const std::vector<Rectangle>& rectangles,
               const Viewpoint& viewpoint, double weight);
-  /// Turns the light into grey values.
-  [[nodiscard]] GreyImage develop(const kernels::ImageNoiseModel& noise_model);
+  /// Turns the light into the grey values of a noisy image.
+  [[nodiscard]] GreyImage apply_image_noise(const kernels::ImageNoiseModel& noise_model);
 
  private:
   /// A part of the image, in rays (x, y, 1).

@@ -10,9 +10,9 @@ namespace waymark::study {
 ///
 ///     p = (1 - e) N(nu; 0, S) + e u,   e = 1 %,
 ///
-/// where u is the density of an observation of which nothing is known. An outlier costs no more than log(e
-/// u), whatever S is: a filter gains nothing by refusing it, nor by a gate that is narrower. What was not
-/// compared with anything (the first observation of a landmark, a duplicate) is as likely as u. So every
+/// where u is the density of an observation of which nothing is known. An outlier costs no more than
+/// log(e u), whatever S is: a filter gains nothing by refusing it, nor by a gate that is narrower. What was
+/// not compared with anything (the first observation of a landmark, a duplicate) is as likely as u. So every
 /// observation is one term in every run.
 [[nodiscard]] double log_likelihood(const Innovation& innovation, double log_field_density);
 

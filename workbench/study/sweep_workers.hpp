@@ -12,7 +12,7 @@ namespace waymark::study {
 /// ends the runs under way without a result. What is thrown beside the runs fails the sweep.
 class SweepWorkers {
  public:
-  /// `threads` >= 1. The sweep must outlive the sweep workers. Throws std::system_error where they cannot be
+  /// `threads` >= 1. The sweep must outlive them. Throws std::system_error where they cannot be
   /// started, the sweep being stopped then.
   SweepWorkers(Sweep& sweep, int threads);
   ~SweepWorkers();

@@ -41,17 +41,15 @@ Result<TuneKey> tune_key(const Schema& schema, const std::string& name) {
 }
 
 /// How the odometry errs, where the kind is the same whatever is observed.
-std::vector<std::string> motion_keys(OdometryInput odometry) {
+std::vector<std::string> motion_keys(OdometryKind odometry) {
   switch (odometry) {
-    case OdometryInput::kWheelAngles:  // what a wheel errs is slip along the way and turning, both
+    case OdometryKind::kWheels:  // what a wheel errs is slip along the way and turning, both
       return {"motion.wheel_var_m2_per_m", "motion.turn_var_rad2_per_rad"};
-    case OdometryInput::kSteering:
+    case OdometryKind::kSteering:
       return {"motion.wheel_var_m2_per_m", "motion.steer_var_rad2_m"};
-    case OdometryInput::kVelocity:
-    case OdometryInput::kOdometryPose:
+    case OdometryKind::kVelocity:
+    case OdometryKind::kPose:
       return {"motion.forward_var_m2_per_m", "motion.turn_var_rad2_per_rad", "motion.turn_var_rad2_per_m"};
-    case OdometryInput::kNone:
-      break;
   }
   return {};
 }
@@ -114,26 +112,26 @@ Result<std::vector<TuneKey>> tune_keys(const Config& config, const std::vector<s
   return keys;
 }
 
-std::string_view describe(OdometryInput kind) {
-  switch (kind) {
-    case OdometryInput::kNone:
-      return "no odometry";
-    case OdometryInput::kWheelAngles:
+std::string_view describe(std::optional<OdometryKind> kind) {
+  if (!kind) return "no odometry";
+  switch (*kind) {
+    case OdometryKind::kWheels:
       return "wheel angles";
-    case OdometryInput::kVelocity:
+    case OdometryKind::kVelocity:
       return "velocities";
-    case OdometryInput::kSteering:
+    case OdometryKind::kSteering:
       return "steering";
-    case OdometryInput::kOdometryPose:
+    case OdometryKind::kPose:
       return "odometry poses";
   }
   return "";
 }
 
-std::vector<std::string> default_tune_keys(const Config& config, OdometryInput odometry) {
+std::vector<std::string> default_tune_keys(const Config& config, std::optional<OdometryKind> odometry) {
   Config copy = config;
   const Schema schema = describe(copy);
-  std::vector<std::string> keys = motion_keys(odometry);
+  std::vector<std::string> keys;
+  if (odometry) keys = motion_keys(*odometry);
   for (auto& key : sensor_keys(config.observe)) keys.push_back(std::move(key));
   std::erase_if(keys, [&schema](const std::string& key) { return schema.value(key) == "0"; });
   return keys;

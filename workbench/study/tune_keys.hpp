@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "waymark/core/result.hpp"
+#include "waymark/slam/odometer.hpp"
 
 #include "workbench/run/config.hpp"
 
@@ -38,13 +40,12 @@ struct TuneKey {
 [[nodiscard]] Result<std::vector<TuneKey>> tune_keys(const Config& config,
                                                      const std::vector<std::string>& names);
 
-/// What kind of odometry a log has.
-enum class OdometryInput { kNone, kWheelAngles, kVelocity, kSteering, kOdometryPose };
-
-[[nodiscard]] std::string_view describe(OdometryInput kind);
+/// The odometry of a log in words; none: it has none.
+[[nodiscard]] std::string_view describe(std::optional<OdometryKind> kind);
 
 /// The noise of that odometry and of what is observed, as far as it is not 0: a part of the model that is
 /// switched off stays off.
-[[nodiscard]] std::vector<std::string> default_tune_keys(const Config& config, OdometryInput odometry);
+[[nodiscard]] std::vector<std::string> default_tune_keys(const Config& config,
+                                                         std::optional<OdometryKind> odometry);
 
 }  // namespace waymark::study

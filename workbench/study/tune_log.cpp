@@ -15,14 +15,6 @@ namespace {
 // What an outlier of a run that broke down costs more than one of a run that did not, nats.
 constexpr double kBreakdown = 10.0;
 
-OdometryInput kind_of(const EventContent& content) {
-  if (std::holds_alternative<WheelAngles>(content)) return OdometryInput::kWheelAngles;
-  if (std::holds_alternative<Velocity>(content)) return OdometryInput::kVelocity;
-  if (std::holds_alternative<Steering>(content)) return OdometryInput::kSteering;
-  if (std::holds_alternative<OdometryPose>(content)) return OdometryInput::kOdometryPose;
-  return OdometryInput::kNone;
-}
-
 Result<std::vector<Event>> read_events(Source& source) {
   std::vector<Event> events;
   for (;;) {
@@ -82,8 +74,6 @@ Result<TuneLog> TuneLog::open(const std::string& name, UserSettings user) {
   if (!events) return events.error();
   log.events_ = *std::move(events);
   log.info_ = opened->source->info();
-  for (const Event& event : log.events_)
-    if (log.odometry_ == OdometryInput::kNone) log.odometry_ = kind_of(event.content);
   log.truth_ = eval::TruthTrack::from_events(log.events_);
   if (auto surveyed = log.survey(); !surveyed) return surveyed.error();
   return log;
@@ -96,6 +86,7 @@ Result<void> TuneLog::survey() {
   if (recording->error) return Error{name_ + ": " + recording->error->message};
   const auto& innovations = recording->innovations;
   if (innovations.empty()) return Error{name_ + ": no observations, which tuning needs"};
+  odometry_ = recording->odometry;
   observations_ = innovations.size();
   searches_images_ = config_.observe == Observe::kPixel && recording->counts.images > 0;
   log_field_density_ = log_field_density(config_, longest_range_m(*recording));

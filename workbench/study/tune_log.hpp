@@ -43,7 +43,7 @@ class TuneLog {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Config& config() const { return config_; }
-  [[nodiscard]] OdometryInput odometry() const { return odometry_; }
+  [[nodiscard]] std::optional<OdometryKind> odometry() const { return odometry_; }
   [[nodiscard]] std::size_t observations() const { return observations_; }
   [[nodiscard]] bool has_truth() const { return !truth_.empty(); }
   /// What the filter looks for, and so what it sees, depends on its settings.
@@ -75,7 +75,7 @@ class TuneLog {
   Config config_;
   LogInfo info_;
   std::vector<Event> events_;
-  OdometryInput odometry_ = OdometryInput::kNone;
+  std::optional<OdometryKind> odometry_;
   eval::TruthTrack truth_;
   std::size_t observations_ = 0;
   bool searches_images_ = false;

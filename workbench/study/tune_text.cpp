@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "workbench/config/key_parts.hpp"
 #include "workbench/study/sweep_summary.hpp"
 
 namespace waymark::study {
@@ -40,14 +41,13 @@ static std::string scores_text(const TuneResult& result) {
 std::string to_yaml(const TuneResult& result) {
   std::vector<const TunedKey*> keys;
   for (const TunedKey& key : result.keys) keys.push_back(&key);
-  const auto section_of = [](const TunedKey* key) { return key->name.substr(0, key->name.find('.') + 1); };
-  std::ranges::stable_sort(keys, {}, section_of);
+  std::ranges::stable_sort(keys, {}, [](const TunedKey* key) { return section_of(key->name); });
   std::string yaml = fmt::format("# Tuned over {} observations; ", result.observations) +
                      (result.stopped ? "stopped early.\n" : scores_text(result));
   std::string section;
   for (const TunedKey* key : keys) {
-    if (section_of(key) != section) {
-      section = section_of(key);
+    if (section_of(key->name) != section) {
+      section = section_of(key->name);
       if (!section.empty()) yaml += section.substr(0, section.size() - 1) + ":\n";
     }
     const std::string interval = interval_text(*key);

@@ -48,7 +48,7 @@ struct Pair {
   ForestRun unknown;
 };
 
-using Observations = std::map<LandmarkId, int>;
+using ObservationCounts = std::map<LandmarkId, int>;
 
 /// Trunks as far apart, and a path as far from the edge, as in the field of 30 m.
 constexpr double kPathInside_m = 6.0;
@@ -75,13 +75,14 @@ std::optional<RunResult> run(const ForestRequest& request, int seed, bool identi
 }
 
 /// How often each trunk was sighted: the run with identities says so.
-Observations count_observations(const RunResult& known) {
-  Observations observations;
+ObservationCounts count_observations(const RunResult& known) {
+  ObservationCounts observations;
   for (const auto& [stamp, innovation] : known.recording.innovations) ++observations[innovation.landmark];
   return observations;
 }
 
-void count_landmarks(ForestRun& kept, const RunResult& result, const Observations& observations, int least) {
+void count_landmarks(ForestRun& kept, const RunResult& result, const ObservationCounts& observations,
+                     int least) {
   const eval::Evaluation& e = *result.evaluation;
   if (!e.fit) return;
   const auto map = result.recording.filter->snapshot().landmarks;
@@ -102,7 +103,7 @@ void count_landmarks(ForestRun& kept, const RunResult& result, const Observation
   if (error) kept.landmark_rmse_m = error->rmse_m.value_or(NAN);
 }
 
-ForestRun keep(const RunResult& result, const Observations& observations, int least) {
+ForestRun keep(const RunResult& result, const ObservationCounts& observations, int least) {
   const eval::Evaluation& e = *result.evaluation;
   ForestRun kept;
   kept.rmse_m = e.path.position_rmse_m.value_or(NAN);
@@ -118,7 +119,7 @@ Pair run_both(const ForestRequest& request, int seed) {
   const auto known = run(request, seed, true);
   const auto unknown = run(request, seed, false);
   if (!known || !unknown) return {};
-  const Observations observations = count_observations(*known);
+  const ObservationCounts observations = count_observations(*known);
   return {keep(*known, observations, request.observations),
           keep(*unknown, observations, request.observations)};
 }

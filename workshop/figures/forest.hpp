@@ -4,7 +4,7 @@
 
 namespace waymark {
 
-/// Adds `forest`: a filter that is not observable which landmark it sees against the same one that is, on the
+/// Adds `forest`: a filter that does not know which landmark it sees against the same one that does, on the
 /// same simulated runs.
 void add_forest(CLI::App& app);
 

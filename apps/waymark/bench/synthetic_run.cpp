@@ -66,7 +66,7 @@ class Field {
 
 }  // namespace
 
-SyntheticRun make_synthetic_run(int landmarks, int landmark_observations, int steps) {
+SyntheticRun make_synthetic_run(int landmarks, int observations_per_step, int steps) {
   Field field(landmarks);
   SyntheticRun run;
   run.start.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
@@ -74,7 +74,7 @@ SyntheticRun make_synthetic_run(int landmarks, int landmark_observations, int st
   for (int i = 0; i < steps; ++i) {
     const Motion motion = field.drive();
     run.steps.push_back({motion, field.look_at_nearest(
-                                     static_cast<std::size_t>(std::min(landmark_observations, landmarks)))});
+                                     static_cast<std::size_t>(std::min(observations_per_step, landmarks)))});
   }
   return run;
 }

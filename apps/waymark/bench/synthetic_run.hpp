@@ -21,7 +21,7 @@ struct SyntheticRun {
   std::vector<Step> steps;
 };
 
-/// `observations` per step; the same arguments give the same run.
-[[nodiscard]] SyntheticRun make_synthetic_run(int landmarks, int landmark_observations, int steps);
+/// `observations_per_step` of the nearest landmarks; the same arguments give the same run.
+[[nodiscard]] SyntheticRun make_synthetic_run(int landmarks, int observations_per_step, int steps);
 
 }  // namespace waymark::app
