@@ -89,8 +89,9 @@ TEST(SimFaults, TheTwinLeavesOutJustWhatWouldBeFalse) {
   EXPECT_EQ(twin.observations.size() + differing(spoilt, clean).size(), clean.observations.size());
   std::size_t at = 0;
   for (std::size_t i = 0; i < clean.observations.size(); ++i)
-    if (same(spoilt.observations[i].second, clean.observations[i].second))
+    if (same(spoilt.observations[i].second, clean.observations[i].second)) {
       EXPECT_TRUE(same(twin.observations[at++].second, clean.observations[i].second));
+    }
 }
 
 TEST(SimFaults, ALandmarkIsCarriedThatIsSeenBeforeAndAfter) {
@@ -127,9 +128,13 @@ TEST(SimFaults, ARobotIsCarriedAndFindsBackToItsPath) {
     const Truth& b = clean.truth[i].second;
     const double off_m = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
     const double after_s = to_seconds(stamp) - kAt_s;
-    if (after_s < 0.0) EXPECT_EQ(off_m, 0.0);
-    if (after_s > 0.0 && after_s < 0.5) EXPECT_NEAR(off_m, 2.0, 0.3);
-    if (after_s > 60.0) EXPECT_LT(off_m, 0.2);
+    if (after_s < 0.0) {
+      EXPECT_EQ(off_m, 0.0);
+    } else if (after_s > 0.0 && after_s < 0.5) {
+      EXPECT_NEAR(off_m, 2.0, 0.3);
+    } else if (after_s > 60.0) {
+      EXPECT_LT(off_m, 0.2);
+    }
   }
   // The wheels know nothing of it.
   for (std::size_t i = 1; i < log.wheels.size(); ++i)
