@@ -13,6 +13,8 @@ namespace {
 // docs/robust.md, "How many observations".
 constexpr int kOutweighOne = 2;   // that agree with each other, against one
 constexpr int kOutweighMany = 3;  // against those of a landmark that was observed more than once
+constexpr int kOutweighOneUnplaced = 3;   // of ranges or bearings alone, of which any two agree
+constexpr int kOutweighManyUnplaced = 6;
 constexpr int kSupport = 3;       // accepted observations of other landmarks meanwhile
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
@@ -162,7 +164,7 @@ FaultIsolation::Contradiction& FaultIsolation::contradict(LandmarkId id, const O
   const bool agrees = !seen || !before || LocalMap::agree(*before, *seen);
   doubted_.observe(observation);
   const auto at = std::ranges::find(contradictions_, id, &Contradiction::id);
-  const Contradiction first{.id = id, .began_at_support = support_};
+  const Contradiction first{.id = id, .began_at_support = support_, .placed = seen.has_value()};
   if (at == contradictions_.end()) {
     if (contradictions_.size() == LocalMap::kCapacity) contradictions_.erase(contradictions_.begin());
     return contradictions_.emplace_back(first);
@@ -175,8 +177,10 @@ FaultIsolation::Contradiction& FaultIsolation::contradict(LandmarkId id, const O
 }
 
 bool FaultIsolation::is_outweighed(const Contradiction& contradiction) const {
-  if (contradiction.once) return contradiction.observations >= kOutweighOne;
-  return contradiction.observations >= kOutweighMany && support_ - contradiction.began_at_support >= kSupport;
+  const int one = contradiction.placed ? kOutweighOne : kOutweighOneUnplaced;
+  const int many = contradiction.placed ? kOutweighMany : kOutweighManyUnplaced;
+  if (contradiction.once) return contradiction.observations >= one;
+  return contradiction.observations >= many && support_ - contradiction.began_at_support >= kSupport;
 }
 
 /// Nothing was accepted since it began.

@@ -103,6 +103,7 @@ class FaultIsolation {
     int observations = 1;
     std::int64_t began_at_support = 0;  ///< value of support_ then
     bool once = false;                  ///< the landmark was observed once
+    bool placed = false;                ///< they were seen at a place, so that agreeing means something
   };
 
   [[nodiscard]] bool wait(std::span<const Observation> observations, std::span<const Innovation> innovations);
