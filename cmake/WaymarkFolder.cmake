@@ -85,14 +85,21 @@ function(waymark_program name)
 endfunction()
 
 # waymark_test(<folder> FILES <files...> LIBRARIES <further targets...> BATCH <number of files> ALONE <files...>
-#   SLOW <gtest filters...>)
+#   SLOW <gtest filters...> THREADED <files...>)
 # One GoogleTest program for tests/<folder>/; its tests appear in ctest as <folder>.<suite>.<test>, labelled <folder>.
 # Those that match SLOW take seconds each, most because they are statistics over many runs: they are <folder>.slow.<suite>.<test>,
 # and not run under sanitizers. There a program is one test, because starting it takes longer than most of its tests.
+# The sanitizer of threads gets only what is tested on several threads, the files that THREADED names.
 function(waymark_test folder)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES;ALONE;SLOW")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "BATCH" "FILES;LIBRARIES;ALONE;SLOW;THREADED")
   waymark_check_arguments("waymark_test(${folder})")
   set(target waymark_${folder}_test)
+  if(WAYMARK_SANITIZE STREQUAL "thread")
+    if(NOT arg_THREADED)
+      return()
+    endif()
+    set(arg_FILES ${arg_THREADED})
+  endif()
   add_executable(${target} ${arg_FILES})
   waymark_runs_once(${target})
   waymark_batch(${target} "${arg_BATCH}" "${arg_ALONE}")
