@@ -14,9 +14,9 @@
 
 namespace waymark {
 
-/// Whose fault it is when observations of named landmarks are gated (fault detection and isolation). One
-/// gated observation is an outlier. Consecutive ones of a landmark that agree with each other, by odometry,
-/// are a fact:
+/// Whose fault it is when observations of landmarks of known identity are gated (fault detection and
+/// isolation). One gated observation is an outlier. Consecutive ones of a landmark that agree with each
+/// other, by odometry, are a fact:
 /// * While observations of other landmarks are accepted it is the landmark's: its first observation was
 /// false, it
 ///   was carried elsewhere, or two bear one identity. It has to begin anew where it is seen.
@@ -26,7 +26,7 @@ namespace waymark {
 ///
 /// A landmark that was observed once proves nothing: two observations that agree with each other outweigh it.
 /// Landmarks that are younger than a contradiction, and were observed since with none that is older, prove
-/// nothing either: a lost robot added them. docs/robust.md derives the counts.
+/// nothing either: a lost robot added them. docs/fault-isolation.md derives the counts.
 ///
 /// A landmark that was not seen for long is expected somewhere, not at a place: any observation of it passes
 /// the gate, a false one too, and would turn the map with it. So it waits until another one stands as far
@@ -46,8 +46,8 @@ class FaultIsolation {
   /// The robot moves on. O(landmarks in doubt).
   void predict(const Motion& motion);
 
-  /// Sets to Outcome::kUncorroborated what was accepted, of named landmarks, but has to wait. `apart(a, b)`
-  /// gives Apart of two landmarks of the table. After gating, before review().
+  /// Sets to Outcome::kUncorroborated what was accepted, of landmarks of known identity, but has to wait.
+  /// `apart(a, b)` gives Apart of two landmarks of the table. After gating, before review().
   template <class ApartOf>
   void corroborate(std::span<const Observation> observations, std::span<Innovation> innovations,
                    const LandmarkTable& table, const ApartOf& apart) {
