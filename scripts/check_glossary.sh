@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks that code, configs, pages and texts use the terms of docs/glossary.md: fails where a word stands that its table of
-# "Words that are out" names. Usage: check_glossary.sh [ROOT]. Prints each offence as file:line: reason.
+# "Words not to use" names. Usage: check_glossary.sh [ROOT]. Prints each offence as file:line: reason.
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
@@ -20,13 +20,13 @@ tests/config/former_keys      *  keys that were renamed
 
 # Rows of the table: | `word` | term |. A word stands for itself as a whole; `*` before or behind it for what it is part of, a
 # space for a space, an underscore or nothing.
-rows=$(awk '/^## / { inside = /^## Words that are out/ } inside && /^\| `/ {
+rows=$(awk '/^## / { inside = /^## Words not to use/ } inside && /^\| `/ {
   split($0, cell, / \| /); word = cell[1]; sub(/^\| `/, "", word); sub(/`$/, "", word); sub(/ \|$/, "", cell[2])
   before = sub(/^\*/, "", word) ? "" : "(^|[^a-zA-Z0-9])"
   behind = sub(/\*$/, "", word) ? "" : "($|[^a-zA-Z0-9])"
   gsub(/ /, "[ _]?", word)
   print before word behind "\t" cell[2] }' "$page")
-[ -n "$rows" ] || { echo "$page:1: has no table of words that are out"; exit 1; }
+[ -n "$rows" ] || { echo "$page:1: has no table of words not to use"; exit 1; }
 
 files=$(git ls-files --cached --others --exclude-standard 2>/dev/null || find . -type f -printf '%P\n')
 files=$(grep -vE '^(web/(built|node_modules)/|web/package-lock\.json|docs/glossary\.md|docs/references\.bib|CITATION|LICENSE)|(^|/)check_glossary|\.(png|jpg|svg|csv|bag|db3|mat)$' <<<"$files")

@@ -176,7 +176,8 @@ void add_calibrate_camera(CLI::App& calibrate, Work& work) {
   command
       ->add_option("input", request->inputs,
                    "images, folders or file patterns; or one video, ROS bag or log with images")
-      ->required();
+      ->required()
+      ->type_name("IMAGES");
   command
       ->add_option("-o,--output", request->output,
                    "folder for camera.yaml and report.html (default "

@@ -53,7 +53,8 @@ void add(CLI::App& calibrate, Work& work, const char* name, const char* help, co
   const auto request = std::make_shared<CalibrateOdometryRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
-      ->required();
+      ->required()
+      ->type_name("LOG");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-calibration)")
       ->type_name("OUT");
   command->add_option("--from", request->span.from_s, "seconds from the start of the log at which to begin")

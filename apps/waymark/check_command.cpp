@@ -250,7 +250,8 @@ void add_check(CLI::App& app, Work& work) {
   auto request = std::make_shared<CheckRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
-      ->required();
+      ->required()
+      ->type_name("LOG");
   request->flags.add_to(*command);
   command->add_flag("--json", request->verbosity.json,
                     "print the findings as JSON on standard output and nothing else there");

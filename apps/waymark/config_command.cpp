@@ -45,9 +45,8 @@ std::vector<std::string> beginnings_of(const Schema& schema) {
   return beginnings;
 }
 
-Result<void> print(const ConfigRequest& request, Config& config) {
-  const Schema schema = describe(config);
-  const std::string yaml = schema.to_yaml([&](const std::string& key) {
+Result<void> print(const ConfigRequest& request, const Schema& schema) {
+  const std::string yaml = schema.to_template([&](const std::string& key) {
     if (!request.prefix.empty()) return key.starts_with(request.prefix);
     return request.all || schema.is_shown(key);
   });
@@ -64,9 +63,10 @@ Result<void> config(const ConfigRequest& request) {
   if (!request.migrate.empty()) return migrate(request.migrate);
   UserSettings user = request.flags.settings();
   if (!request.validate.empty()) user.files.emplace_back(request.validate);
-  auto config = resolve_config(user);
-  if (!config) return config.error();
-  if (request.validate.empty()) return print(request, *config);
+  Config config;
+  Schema schema = describe(config);
+  if (auto done = apply(schema, user); !done) return done;
+  if (request.validate.empty()) return print(request, schema);
   fmt::print("{}: valid\n", request.validate);
   return {};
 }
@@ -76,7 +76,8 @@ Result<void> config(const ConfigRequest& request) {
 void add_config(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand(
       "config",
-      "Print config keys with descriptions; validate a config file, or migrate one of an earlier version");
+      "Print config keys with descriptions, as a config file in which keys that are not set are comments; "
+      "validate a config file, or migrate one of an earlier version");
   auto request = std::make_shared<ConfigRequest>();
   command
       ->add_option("prefix", request->prefix,

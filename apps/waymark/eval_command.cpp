@@ -43,6 +43,8 @@ Result<std::vector<LandmarkEstimate>> read_landmarks(const fs::path& folder) {
 
 Result<Estimate> read_estimate(const fs::path& path) {
   const bool folder = fs::is_directory(path);
+  if (folder && !fs::exists(path / "trajectory.tum"))
+    return Error{path.string() + " is not a folder that `waymark run` wrote (no trajectory.tum)"};
   auto trajectory = read_tum(folder ? path / "trajectory.tum" : path);
   if (!trajectory) return trajectory.error();
   Estimate estimate{std::move(*trajectory), {}};
@@ -116,7 +118,8 @@ void add_eval(CLI::App& app, Work& work) {
       "eval", "Compute the errors of a result against ground truth, with and without alignment");
   auto request = std::make_shared<EvalRequest>();
   command->add_option("result", request->result, "folder that `waymark run` wrote, or a TUM trajectory")
-      ->required();
+      ->required()
+      ->type_name("RESULT");
   command->add_option("--truth", request->truth, "log with ground truth, or a TUM trajectory")
       ->required()
       ->type_name("LOG_OR_FILE");

@@ -9,6 +9,7 @@
 #include "waymark/kernels/instruction_set.hpp"
 
 #include "commands.hpp"
+#include "usage_error.hpp"
 
 namespace waymark::app {
 namespace {
@@ -47,8 +48,10 @@ void SettingsFlags::add_to(CLI::App& command) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
-      .add_option("--set", assignments,
-                  "value of one config key, for example --set sensor.range_sigma_m=0.1; wins over files")
+      .add_option(
+          "--set", assignments,
+          "value of one config key, for example --set sensor.range_sigma_m=0.1; wins over files and other "
+          "flags")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_option("--seed", seed, "seed of all random numbers (config key seed)")->type_name("N");
@@ -61,8 +64,8 @@ UserSettings SettingsFlags::settings() const {
   UserSettings user;
   user.files.assign(files.begin(), files.end());
   user.assignments = assignments;
-  if (!seed.empty()) user.assignments.push_back("seed=" + seed);
-  if (!threads.empty()) user.assignments.push_back("threads=" + threads);
+  if (!seed.empty()) user.flags.push_back({"--seed", "seed", seed});
+  if (!threads.empty()) user.flags.push_back({"--threads", "threads", threads});
   return user;
 }
 
@@ -103,7 +106,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& wrong) {
-    return report({std::string(wrong.what()) + "; see waymark --help", Error::Kind::kBadInput});
+    return report(usage_error(app, wrong));
   }
   const auto done = work();
   return done ? 0 : report(done.error());

@@ -82,7 +82,7 @@ CLI::App* add(CLI::App& map, Work& work, const char* name, const char* help, con
   auto* command = map.add_subcommand(name, help);
   command->add_option("map", request->input, "saved map: .waymark, .json or .csv")
       ->required()
-      ->type_name("FILE");
+      ->type_name("MAP");
   command->footer(std::string("Example:\n  ") + example);
   command->callback([&work, request, act] { work = [request, act] { return act(*request); }; });
   return command;
@@ -111,7 +111,7 @@ void add_map(CLI::App& app, Work& work) {
   auto* both =
       add(*map, work, "merge", "Merge two independent maps by the landmark identities that they share",
           "waymark map merge a.waymark b.waymark -o both.waymark", merge, request);
-  both->add_option("other", request->other, "second map, in any frame")->required()->type_name("FILE");
+  both->add_option("other", request->other, "second map, in any frame")->required()->type_name("SECOND_MAP");
   add_output(*both, *request);
   auto* fixed =
       add(*map, work, "fix", "Transform a map into the frame of surveyed landmarks and correct it by them",

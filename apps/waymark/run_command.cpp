@@ -26,16 +26,16 @@ struct RunRequest {
 
   [[nodiscard]] UserSettings settings() const {
     UserSettings user = flags.settings();
-    const auto set = [&user](const char* key, const std::string& value) {
-      if (!value.empty()) user.assignments.push_back(std::string(key) + "=" + value);
+    const auto set = [&user](const char* flag, const char* key, const std::string& value) {
+      if (!value.empty()) user.flags.push_back({flag, key, value});
     };
-    set("filter", filter);
-    set("observe", observe);
-    set("associate", associate);
-    set("fastslam.particles", particles);
-    set("map.file", map);
-    set("map.localize", localize ? "true" : "");
-    set("smooth.run", smooth ? "true" : "");
+    set("--filter", "filter", filter);
+    set("--observe", "observe", observe);
+    set("--associate", "associate", associate);
+    set("--particles", "fastslam.particles", particles);
+    set("--map", "map.file", map);
+    set("--localize", "map.localize", localize ? "true" : "");
+    set("--smooth", "smooth.run", smooth ? "true" : "");
     return user;
   }
 };
@@ -72,7 +72,8 @@ void add_run(CLI::App& app, Work& work) {
   auto request = std::make_shared<RunRequest>();
   command
       ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
-      ->required();
+      ->required()
+      ->type_name("LOG");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
       ->type_name("OUT");
   command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");

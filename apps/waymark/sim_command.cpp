@@ -44,7 +44,8 @@ void add_sim(CLI::App& app, Work& work) {
   command
       ->add_option("scenario", request->scenario,
                    "scenario or FILE.yaml with keys sim.*; scenarios: " + scenario_list())
-      ->required();
+      ->required()
+      ->type_name("SCENARIO");
   command->add_option("-o,--output", request->output, "log folder to write, with ground truth")
       ->required()
       ->type_name("LOG");

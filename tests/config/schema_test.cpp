@@ -98,7 +98,7 @@ TEST_F(ConfigTest, TakesLimitsThemselvesAndRefusesWhatIsBeyond) {
   EXPECT_EQ(error_of("gate.probability", "0.5"), "");
   EXPECT_EQ(error_of("gate.probability", "1"), "");
   EXPECT_EQ(error_of("gate.probability", "1.0001"),
-            "here: gate.probability cannot be '1.0001'; allowed: 0.5 to 1");
+            "here: gate.probability cannot be '1.0001'; allowed: a number, 0.5 to 1");
   EXPECT_EQ(error_of("filter.particles", "0"),
             "here: filter.particles cannot be '0'; allowed: whole number, 1 to 10000");
   EXPECT_EQ(error_of("seed", "-1"), "here: seed cannot be '-1'; allowed: whole number, at least 0");
@@ -122,6 +122,13 @@ TEST_F(ConfigTest, RefusesWhatIsNotOfTheType) {
   for (const char* text : {"", "yes", "1", "True"}) EXPECT_NE(error_of("gate.verbose", text), "");
   EXPECT_EQ(error_of("run.colour", "pink"), "here: run.colour cannot be 'pink'; allowed: red, green or blue");
   EXPECT_EQ(options_, Options{});
+}
+
+TEST_F(ConfigTest, NamesTheFlagThatSetAKey) {
+  EXPECT_TRUE(schema_.set_by_flag("--particles", "filter.particles", "7").ok());
+  EXPECT_EQ(options_.particles, 7);
+  EXPECT_EQ(schema_.set_by_flag("--colour", "run.colour", "pink").error().message,
+            "--colour cannot be 'pink'; allowed: red, green or blue");
 }
 
 TEST_F(ConfigTest, SuggestsTheNearestKey) {
@@ -237,6 +244,18 @@ TEST_F(ConfigTest, PrintsHelpLimitsAndDefaults) {
                         "  probability: 0.75\n"
                         "  # tell what was refused (true or false; default false)\n"
                         "  verbose: false\n"));
+}
+
+TEST_F(ConfigTest, ATemplateSetsOnlyWhatWasSet) {
+  ASSERT_TRUE(schema_.set("gate.probability", "0.75", "here").ok());
+  const std::string yaml = schema_.to_template([](const std::string&) { return true; });
+  EXPECT_THAT(yaml, HasSubstr("\n  probability: 0.75\n"));
+  EXPECT_THAT(yaml, HasSubstr("\n  #verbose: false\n"));
+  options_ = {};
+  options_.particles = 12;
+  EXPECT_EQ(load_error(yaml), "");
+  EXPECT_EQ(options_.probability, 0.75);
+  EXPECT_EQ(options_.particles, 12) << "what was not set stays what it was";
 }
 
 TEST_F(ConfigTest, PrintsEverySectionOnce) {

@@ -50,6 +50,8 @@ TEST(Survey, RefusesWhatIsNoSurvey) {
   expect_error("7,1,2,-0.01,0,0.04\n", "survey.csv:2: the covariance is not positive");
   expect_error("7,1,2,1,0,1\n7,1,2,1,0,1\n", "survey.csv:3: this id is listed twice");
   expect_error("-1,1,2,1,0,1\n", "survey.csv:2");
+  EXPECT_THAT(survey_of("id,x_m,y_m,z_m\n7,1,2,0\n").error().message,
+              testing::HasSubstr("survey.csv:2: a survey needs variances: columns id,x_m,y_m,sxx,sxy,syy"));
 }
 
 }  // namespace

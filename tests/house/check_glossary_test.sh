@@ -13,7 +13,7 @@ cat >docs/glossary.md <<'END'
 | --- | --- |
 | `*gadget*` | a term is not a word that is out |
 
-## Words that are out
+## Words not to use
 
 | word | term |
 | --- | --- |

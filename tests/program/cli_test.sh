@@ -31,13 +31,23 @@ does() {
 }
 
 # Wrong usage.
-refuses 2 'waymark --help' frobnicate
-refuses 2 'input' run
+refuses 2 "unknown command 'frobnicate'; see \`waymark --help\`" frobnicate
+refuses 2 "unknown command 'rnu'; did you mean run?" rnu
+refuses 2 "calibrate: unknown command 'camra'; did you mean camera? See \`waymark calibrate --help\`" calibrate camra
+refuses 2 'run: unknown option --fliter; did you mean --filter? See `waymark run --help`' run sim:square --fliter ekf
+refuses 2 'run: unknown option --frobnicate; see `waymark run --help`' run sim:square --frobnicate
+refuses 2 "check: unexpected argument 'twice'" check sim:square twice
+refuses 2 'give a command: run, demo,'
+refuses 2 'give a log: `waymark run LOG`' run
+refuses 2 'give a second map: `waymark map merge MAP SECOND_MAP --output OUT`' map merge a.waymark
+refuses 2 'give --truth LOG_OR_FILE' eval out
+refuses 2 "--filter cannot be 'ekff'; allowed: ekf or fastslam" run sim:square -o o --filter ekff
+refuses 2 'allowed: a number, 1e-06 to 1000' run sim:square -o o --set sensor.range_sigma_m=-1
 refuses 2 'sensor.range_sigma_m' run sim:square -o o --set sensor.range_sigma=1
-refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 0
-refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles many
-refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles -5
-refuses 2 'fastslam.particles' run sim:square -o o --filter fastslam --particles 99999999999999999999
+refuses 2 "--particles cannot be '0'" run sim:square -o o --filter fastslam --particles 0
+refuses 2 "--particles cannot be 'many'" run sim:square -o o --filter fastslam --particles many
+refuses 2 '--particles cannot be' run sim:square -o o --filter fastslam --particles -5
+refuses 2 '--particles cannot be' run sim:square -o o --filter fastslam --particles 99999999999999999999
 refuses 2 'range-bearing, range, bearing, pixel or markers' run sim:square -o o --filter fastslam --observe sonar
 refuses 2 'ml takes range-bearing' run sim:forest -o o --filter fastslam --observe range
 refuses 2 'ekf or fastslam' run sim:square -o o --filter ukf
@@ -76,6 +86,8 @@ refuses 2 'did you mean ekf.likelihood' config --migrate wrong.yaml
 cmp -s wrong.yaml kept.yaml || fail "config --migrate: changed a file that it refused"
 printf 'sim:\n  side_m: 3\n' >world.yaml
 does sim world.yaml -o world --set sim.speed_mps=1
+printf 'sim:\n  side_m: 3\nfilter: ekf\n' >world.yaml
+refuses 2 'a world has only keys `sim.*`; give filter by --config' run sim:world.yaml -o o
 refuses 2 'nowhere.yaml' run sim:nowhere.yaml -o o
 
 # Instruction sets that there are not.
@@ -109,6 +121,10 @@ does run log -o whole
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"
 done
+does config --all
+cp out.txt my.yaml
+does run log -o templated --config my.yaml
+cmp -s whole/trajectory.tum templated/trajectory.tum || fail 'the output of config, given as it is, changes a run'
 does run log -o again --config whole/config.yaml --threads 2
 for file in trajectory.tum trajectory_covariance.csv map.csv; do
   cmp -s "whole/$file" "again/$file" || fail "$file differs when run again with its own config and two threads"
@@ -116,12 +132,22 @@ done
 does eval whole --truth log --json
 grep -q position_rmse_m out.txt || fail 'eval prints no errors'
 does eval whole/trajectory.tum --truth whole/trajectory.tum
+refuses 2 'log is not a folder that `waymark run` wrote (no trajectory.tum)' eval log --truth log
+
+# Without a result nothing is written, and nothing printed.
+cp -r whole untouched
+for wrong in '--observe pixel' '--set wheels.track_m=0' '--from 1e6' '--from 20 --to 10'; do
+  # shellcheck disable=SC2086
+  refuses 2 '' run log -o untouched $wrong
+  [ ! -s out.txt ] || fail "run $wrong prints: $(cat out.txt)"
+  diff -rq whole untouched || fail "run $wrong wrote into its output folder"
+done
 does run sim:square --seed 3 -o memory
 cmp -s whole/trajectory.tum memory/trajectory.tum || fail 'a log from memory gives another path than from disk'
 
 # Saved maps: the same bytes when nothing happened between, and what cannot be gone on from.
 does run log -o first --to 20
-does run log -o second --from 1e9 --map first/map.waymark
+does run log -o second --from 20.001 --to 20.002 --map first/map.waymark
 cmp -s <(sed 1,3d first/map.waymark) <(sed 1,3d second/map.waymark) || fail 'a map that was only read and written differs'
 does run log -o second --from 20 --map first/map.waymark
 refuses 2 'map.file: a saved map needs filter=ekf' run log -o o --map first/map.waymark --filter fastslam
@@ -155,6 +181,7 @@ cmp -s whole/map.csv m.csv || fail 'a map as a table differs from map.csv'
 does map merge whole/map.waymark m.json -o both.waymark
 refuses 2 'the maps contradict each other' map merge whole/map.waymark mirrored.waymark -o o.waymark
 refuses 2 '0 landmarks in common' map merge whole/map.waymark renamed.waymark -o o.waymark
+refuses 2 'a survey needs variances: columns id,x_m,y_m,sxx,sxy,syy' map fix whole/map.waymark --survey log/landmarks.csv -o o.waymark
 awk -F, 'NR == 1 { print "id,x_m,y_m,sxx,syy" } NR > 1 { print $1 "," $2 "," $3 ",1e-6,1e-6" }' log/landmarks.csv >survey.csv
 does map fix whole/map.waymark --survey survey.csv -o fixed.waymark
 does run log -o found --from 5 --map fixed.waymark --localize
@@ -367,7 +394,7 @@ grep -q '"held_out"' out.txt || fail 'tune --json has no held-out scores'
 cmp -s t1/tuned.yaml t2/tuned.yaml || fail 'tune depends on the number of threads'
 [ -s t1/report.html ] || fail 'tune wrote no report'
 does run "${quick_tune[@]}" --config t1/tuned.yaml -o o
-refuses 2 'logs' tune
+refuses 2 'give a log: `waymark tune LOG`' tune
 refuses 2 'nowhere' tune nowhere -o o
 refuses 2 'close keys: sensor.range_sigma_m' tune "${quick_tune[@]}" --keys sensor.range_sigma -o o
 refuses 2 'filter is not a real number' tune "${quick_tune[@]}" --keys filter -o o
@@ -388,8 +415,8 @@ wait $!
 grep -q 'the best values so far are in t3/tuned.yaml' err.txt || [ -s t3/report.html ] || fail "tune, stopped: $(cat err.txt)"
 
 # Calibrating a camera: what is no set of images, and what the images do not show.
-refuses 2 'subcommand' calibrate
-refuses 2 'input' calibrate camera
+refuses 2 'calibrate: give a command: camera' calibrate
+refuses 2 'give images: `waymark calibrate camera IMAGES`' calibrate camera
 refuses 2 'empty: no images' calibrate camera empty
 refuses 2 'nowhere: there is no such file' calibrate camera nowhere
 refuses 2 '--corners 9' calibrate camera room/images --corners 9
@@ -398,7 +425,7 @@ refuses 2 '--board circles' calibrate camera room/images --board circles
 refuses 2 'unknown key' calibrate camera room/images --set input.image=x
 WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera room/images
 WAYMARK_MODULE_DIR=$PWD/empty refuses 2 'scripts/setup.sh --opencv' calibrate camera x.mat
-if "$waymark" calibrate camera x.mat 2>&1 | grep -q 'is not installed'; then
+if grep -q 'is not installed' < <("$waymark" calibrate camera x.mat 2>&1); then
   echo 'SKIPPED: this build has no OpenCV'
 else
   refuses 2 'is neither an image' calibrate camera x.mat

@@ -92,6 +92,28 @@ TEST(Config, LaterSettingsWin) {
   EXPECT_EQ(alone->threads, 2);
 }
 
+TEST(Config, SingleKeysWinOverFlagsAndFlagsOverFiles) {
+  const test::TempFolder folder;
+  const auto file = folder.write("user.yaml", "seed: 5\nthreads: 2\n");
+  UserSettings user{{file}, {"seed=6"}};
+  user.flags = {{"--seed", "seed", "7"}, {"--threads", "threads", "3"}};
+  const auto config = resolve_config(user);
+  ASSERT_TRUE(config.ok());
+  EXPECT_EQ(config->seed, 6U);
+  EXPECT_EQ(config->threads, 3);
+}
+
+TEST(Config, ATemplateLeavesToTheLogWhatTheLogStates) {
+  const test::TempFolder folder;
+  Config defaults;
+  const std::string yaml = describe(defaults).to_template([](const std::string&) { return true; });
+  const auto plain = open_input("sim:study", {});
+  const auto with_template = open_input("sim:study", {{folder.write("my.yaml", yaml)}, {}});
+  ASSERT_TRUE(plain.ok() && with_template.ok());
+  EXPECT_EQ(with_template->config.odometry.wheels.left_radius_m, plain->config.odometry.wheels.left_radius_m);
+  EXPECT_EQ(with_template->config.sensor.bearing_sigma_deg, plain->config.sensor.bearing_sigma_deg);
+}
+
 TEST(Config, AMistypedKeyNamesTheNearest) {
   const auto config = resolve_config({{}, {"ekf.consistancy=fej"}});
   ASSERT_FALSE(config.ok());

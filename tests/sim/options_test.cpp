@@ -57,6 +57,8 @@ TEST(SimOptions, AFileIsAScenarioToo) {
   EXPECT_EQ(mine->world.max_offset_m, SimOptions{}.world.max_offset_m);
   EXPECT_THAT(scenario(folder.write("bad.yaml", "sim:\n  lap: 5\n").string()).error().message,
               HasSubstr("bad.yaml:2: unknown key sim.lap; did you mean sim.laps?"));
+  EXPECT_THAT(scenario(folder.write("other.yaml", "sim:\n  laps: 5\nfilter: ekf\n").string()).error().message,
+              HasSubstr("other.yaml:3: a world has only keys `sim.*`; give filter by --config"));
   EXPECT_THAT(scenario("nowhere.yaml").error().message, HasSubstr("nowhere.yaml"));
 }
 

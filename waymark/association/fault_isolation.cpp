@@ -10,7 +10,7 @@
 namespace waymark {
 namespace {
 
-// docs/robust.md, "How many observations".
+// docs/fault-isolation.md, "How many observations".
 constexpr int kOutweighOne = 2;          // that agree with each other, against one
 constexpr int kOutweighMany = 3;         // against those of a landmark that was observed more than once
 constexpr int kOutweighOneUnplaced = 3;  // of ranges or bearings alone, of which any two agree

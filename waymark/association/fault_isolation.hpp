@@ -16,9 +16,9 @@
 
 namespace waymark {
 
-/// Whose fault it is when observations of named landmarks are gated (fault detection and isolation). One
-/// gated observation is an outlier. Consecutive ones of a landmark that agree with each other, by odometry,
-/// are a fact:
+/// Whose fault it is when observations of landmarks of known identity are gated (fault detection and
+/// isolation). One gated observation is an outlier. Consecutive ones of a landmark that agree with each
+/// other, by odometry, are a fact:
 /// * While observations of other landmarks are accepted it is the landmark's: its first observation was
 /// false, it
 ///   was carried elsewhere, or two bear one identity. It has to begin anew where it is seen.
@@ -28,7 +28,7 @@ namespace waymark {
 ///
 /// A landmark that was observed once proves nothing: two observations that agree with each other outweigh it.
 /// Landmarks that are younger than a contradiction, and were observed since with none that is older, prove
-/// nothing either: a lost robot added them. docs/robust.md derives the counts.
+/// nothing either: a lost robot added them. docs/fault-isolation.md derives the counts.
 ///
 /// Memory is taken at construction but for the names of landmarks that are found wrong.
 class FaultIsolation {

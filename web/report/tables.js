@@ -78,9 +78,9 @@ const DISTANCES = [
   ["Landmarks", "landmark_rmse_m", "m"],
 ];
 
-// How far the live answer was from what the whole log allows, and both from the truth.
+// How far the causal answer was from what the whole log allows, and both from the truth.
 export function smoothedPanel(smoothed, truth) {
-  const columns = [["live from smoothed", smoothed.live], ["live from truth", smoothed.truth ? truth : null],
+  const columns = [["causal from smoothed", smoothed.live], ["causal from truth", smoothed.truth ? truth : null],
     ["smoothed from truth", smoothed.truth]].filter(([, values]) => values);
   const rows = DISTANCES.filter(([, key]) => columns.some(([, values]) => format.isNumber(values[key])));
   return panel("By the whole log", { note: `${format.count(smoothed.poses)} poses and ${format.count(smoothed.observations)} observations`

@@ -38,9 +38,10 @@ void describe(Schema& schema, EkfOptions& options) {
   schema.choice("ekf.likelihood", options.likelihood, {"gaussian", "student"},
                 "distribution of observation errors; student has heavy tails, for outliers within the gate, "
                 "and relinearises up to 3 times");
-  schema.choice("ekf.compressed", options.compressed, {"auto", "true", "false"},
-                "compressed EKF: an update costs as much as a submap, for large maps; auto: once the map is "
-                "large enough");
+  schema.choice(
+      "ekf.compressed", options.compressed, {"auto", "true", "false"},
+      "compressed EKF, for large maps: an update changes only the active submap, at a cost that does "
+      "not grow with the map; auto: once the map is large enough");
   describe(schema, options.odometry);
 }
 

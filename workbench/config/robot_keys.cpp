@@ -4,14 +4,14 @@ namespace waymark {
 
 void describe(Schema& schema, OdometryOptions& o) {
   schema.real("wheels.left_radius_m", o.wheels.left_radius_m, {0.0, 10.0},
-              "radius of the left wheel, m; 0: use the log's", Shown::kAlways);
+              "radius of the left wheel, m; the log's unless set", Shown::kAlways);
   schema.real("wheels.right_radius_m", o.wheels.right_radius_m, {0.0, 10.0},
-              "radius of the right wheel, m; 0: use the log's", Shown::kAlways);
+              "radius of the right wheel, m; the log's unless set", Shown::kAlways);
   schema.real("wheels.track_m", o.wheels.track_m, {0.0, 100.0},
-              "distance between the wheels, m; 0: use the log's", Shown::kAlways);
+              "distance between the wheels, m; the log's unless set", Shown::kAlways);
   schema.real("car.wheel_base_m", o.car.wheel_base_m, {0.0, 100.0},
               "distance between rear and front axle of a steered car, m; its origin is the middle of the "
-              "rear axle; 0: use the log's");
+              "rear axle; the log's unless set");
   schema.real(
       "car.encoder_offset_m", o.car.encoder_offset_m, {-10.0, 10.0},
       "offset of the rear wheel with the encoder from the middle of a steered car, m, positive to the left");

@@ -191,9 +191,19 @@ Result<void> Schema::set(std::string_view key, std::string_view value, std::stri
                              guess.empty() ? "; `waymark config --all` lists all keys"
                                            : fmt::format("; did you mean {}?", guess))};
   }
-  if (!found->set(value))
-    return Error{fmt::format("{}: {} cannot be '{}'; allowed: {}", where, key, value, found->allowed)};
-  found->was_set = true;
+  return set(*found, value, fmt::format("{}: {}", where, key));
+}
+
+Result<void> Schema::set_by_flag(std::string_view flag, std::string_view key, std::string_view value) {
+  return set(*std::ranges::find(keys_, key, &Key::name), value, flag);
+}
+
+/// `subject` begins the error.
+Result<void> Schema::set(Key& key, std::string_view value, std::string_view subject) {
+  if (!key.set(value))
+    return Error{fmt::format("{} cannot be '{}'; allowed: {}{}", subject, value,
+                             key.limits ? "a number, " : "", key.allowed)};
+  key.was_set = true;
   return {};
 }
 
@@ -218,9 +228,20 @@ Result<void> Schema::load_file(const std::filesystem::path& path) {
 }
 
 std::string Schema::to_yaml(const std::function<bool(const std::string&)>& is_wanted) const {
+  return write_yaml([&](const Key& key) { return !is_wanted || is_wanted(key.name); },
+                    [](const Key&) { return false; });
+}
+
+std::string Schema::to_template(const std::function<bool(const std::string&)>& is_wanted) const {
+  return write_yaml([&](const Key& key) { return is_wanted(key.name); },
+                    [](const Key& key) { return !key.was_set; });
+}
+
+template <class IsWanted, class IsComment>
+std::string Schema::write_yaml(const IsWanted& is_wanted, const IsComment& is_comment) const {
   std::vector<const Key*> wanted;
   for (const auto& key : keys_)
-    if (!is_wanted || is_wanted(key.name)) wanted.push_back(&key);
+    if (is_wanted(key)) wanted.push_back(&key);
   std::vector<std::string_view> sections;
   for (const Key* key : wanted)
     if (std::ranges::find(sections, section_of(key->name)) == sections.end())
@@ -233,7 +254,8 @@ std::string Schema::to_yaml(const std::function<bool(const std::string&)>& is_wa
       if (section_of(key->name) != section) continue;
       yaml += fmt::format("{}# {} ({}; default {})\n", indent, key->help, key->allowed,
                           key->default_value.empty() ? "empty" : yaml_scalar(key->default_value));
-      yaml += fmt::format("{}{}: {}\n", indent, key->name.substr(section.size()), yaml_scalar(key->get()));
+      yaml += fmt::format("{}{}{}: {}\n", indent, is_comment(*key) ? "#" : "",
+                          key->name.substr(section.size()), yaml_scalar(key->get()));
     }
   }
   return yaml;

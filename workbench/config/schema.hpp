@@ -61,6 +61,10 @@ class Schema {
   /// impossible value names what would be right.
   Result<void> set(std::string_view key, std::string_view value, std::string_view where);
 
+  /// The same where a flag of the command line sets a key: `flag` ("--filter") stands for the key in the
+  /// error.
+  Result<void> set_by_flag(std::string_view flag, std::string_view key, std::string_view value);
+
   /// "key=value", as on the command line.
   Result<void> set_assignment(std::string_view assignment, std::string_view where);
 
@@ -72,6 +76,10 @@ class Schema {
   /// The config in force as YAML with help, unit and limits as comments: the keys that `is_wanted` takes, all
   /// without it. load_text() of it changes nothing.
   [[nodiscard]] std::string to_yaml(const std::function<bool(const std::string&)>& is_wanted = {}) const;
+
+  /// The same with every key that nobody set behind a `#`: a file to edit, which leaves to the log what it
+  /// does not set.
+  [[nodiscard]] std::string to_template(const std::function<bool(const std::string&)>& is_wanted) const;
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] bool is_shown(std::string_view key) const;
@@ -99,6 +107,7 @@ class Schema {
   };
 
   void add(Key key);
+  static Result<void> set(Key& key, std::string_view value, std::string_view subject);
   template <class Number>
   void add_number(std::string name, Number& field, ValueLimits limits, std::string allowed, std::string help,
                   Shown shown);
@@ -106,6 +115,8 @@ class Schema {
                   std::function<std::size_t()> get, std::function<void(std::size_t)> set);
   [[nodiscard]] const Key* find(std::string_view name) const;
   [[nodiscard]] std::string nearest(std::string_view name) const;
+  template <class IsWanted, class IsComment>
+  [[nodiscard]] std::string write_yaml(const IsWanted& is_wanted, const IsComment& is_comment) const;
 
   std::vector<Key> keys_;
 };

@@ -25,6 +25,8 @@ struct Surveyed {
 Surveyed read_row(TextTable& row, const MapState& map) {
   const int number = row.integer(0);
   if (number < 0) row.fail("the id of a surveyed landmark cannot be negative");
+  if (row.is_empty(3) || row.is_empty(5))
+    row.fail("a survey needs variances: columns id,x_m,y_m,sxx,sxy,syy");
   const double sxy = row.is_empty(4) ? 0.0 : row.number(4);
   Surveyed surveyed{id_of(number, map), {row.number(1), row.number(2)}, {}};
   surveyed.covariance << row.number(3), sxy, sxy, row.number(5);
@@ -35,7 +37,8 @@ Surveyed read_row(TextTable& row, const MapState& map) {
 }  // namespace
 
 Result<MapState> read_survey(const std::filesystem::path& path, const MapState& map) {
-  auto table = TextTable::open(path, {"id,x_m,y_m,sxx,sxy,syy", TableLayout::Separator::kComma, "sxy"});
+  auto table = TextTable::open(
+      path, {"id,x_m,y_m,sxx,sxy,syy,z_m", TableLayout::Separator::kComma, "sxx,sxy,syy,z_m"});
   if (!table) return table.error();
   std::vector<Surveyed> rows;
   while (table->next()) {

@@ -264,7 +264,7 @@ static std::string to_text(const SmoothedFigures& s) {
     text += line("position RMSE, aligned", s.truth->path.position_rmse_aligned_m, "m");
     if (s.truth->map) text += line("landmark RMSE, with the path", s.truth->map->rmse_m, "m");
   }
-  text += line("live path vs smoothed, aligned", s.live.path.position_rmse_aligned_m, "m");
+  text += line("causal path vs smoothed, aligned", s.live.path.position_rmse_aligned_m, "m");
   return text + to_text(s.calibration);
 }
 

@@ -23,12 +23,6 @@ Result<void> apply(Schema& schema, const std::vector<std::string>& assignments, 
   return {};
 }
 
-Result<void> apply(Schema& schema, const UserSettings& user) {
-  for (const auto& file : user.files)
-    if (auto done = schema.load_file(file); !done) return done;
-  return apply(schema, user.assignments, "--set");
-}
-
 Result<void> apply(Schema& schema, const LogInfo& log) {
   if (log.only_pixels)
     if (auto done = schema.set("observe", "pixel", log.name); !done) return done;
@@ -91,6 +85,14 @@ void put_sensor_at_camera(Config& config) {
 }
 
 }  // namespace
+
+Result<void> apply(Schema& schema, const UserSettings& user) {
+  for (const auto& file : user.files)
+    if (auto done = schema.load_file(file); !done) return done;
+  for (const auto& [flag, key, value] : user.flags)
+    if (auto done = schema.set_by_flag(flag, key, value); !done) return done;
+  return apply(schema, user.assignments, "--set");
+}
 
 const char* filter_name(FilterKind kind) { return kind == FilterKind::kEkf ? "EKF-SLAM" : "FastSLAM"; }
 

@@ -69,12 +69,23 @@ struct Config {
 /// All keys. The schema refers to `config`, which must outlive it and stay where it is.
 [[nodiscard]] Schema describe(Config& config);
 
-/// What the user wants changed: a file, then single keys, the later ones winning.
+/// A key that a flag of its own sets: `--filter ekf`.
+struct FlagSetting {
+  std::string flag;
+  std::string key;
+  std::string value;
+};
+
+/// What the user wants changed: files, then flags, then single keys, the later ones winning.
 struct UserSettings {
   std::vector<std::filesystem::path> files;  ///< YAML; a later one ranks above those before
   std::vector<std::string> assignments;      ///< "key=value"
   std::vector<std::string> defaults;         ///< the same where neither the log nor the user says anything
+  std::vector<FlagSetting> flags;
 };
+
+/// Sets what the user wants changed.
+Result<void> apply(Schema& schema, const UserSettings& user);
 
 /// A log, opened, with the config that holds for it.
 struct OpenedInput {

@@ -34,7 +34,7 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   std::vector<std::string> lines;
   for (const Outcome outcome :
        {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous, Outcome::kDuplicate,
-        Outcome::kMapFull, Outcome::kNotInMap, Outcome::kDistrusted}) {
+        Outcome::kMapFull, Outcome::kNotInMap, Outcome::kDeferred, Outcome::kDistrusted}) {
     const auto count = std::ranges::count_if(
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)
@@ -74,20 +74,32 @@ void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
     recording.innovations.push_back({step.stamp, innovation});
 }
 
+Result<void> check_span(const TimeSpan& span) {
+  if (span.from_s < span.to_s) return {};
+  return Error{fmt::format("--to {} is not after --from {}", span.to_s, span.from_s)};
+}
+
+/// A span that begins after the log's end.
+std::optional<Error> find_empty_span(const TimeSpan& span, double length_s) {
+  if (span.from_s <= length_s) return std::nullopt;
+  return Error{fmt::format("--from {}: the log is {:.1f} s long", span.from_s, length_s)};
+}
+
 /// Feeds the source's events within the span to `accept`; the reason if reading broke off.
 std::optional<Error> read_all(Source& source, const TimeSpan& span,
                               const std::function<bool(double)>& keep_going,
                               const std::function<Result<void>(Event)>& accept) {
   constexpr int kEventsPerQuestion = 256;
   std::optional<Stamp> start;
+  double elapsed_s = 0.0;
   for (std::int64_t count = 0;; ++count) {
     if (keep_going && count % kEventsPerQuestion == 0 && !keep_going(source.progress()))
       return Error{"stopped; the results so far are kept", Error::Kind::kFailed};
     auto event = source.next();
     if (!event) return event.error();
-    if (!*event) return std::nullopt;
+    if (!*event) return find_empty_span(span, elapsed_s);
     if (!start) start = (*event)->stamp;
-    const double elapsed_s = to_seconds((*event)->stamp - *start);
+    elapsed_s = to_seconds((*event)->stamp - *start);
     if (elapsed_s > span.to_s) return std::nullopt;
     if (elapsed_s < span.from_s) continue;
     if (auto accepted = accept(std::move(**event)); !accepted) return accepted.error();
@@ -104,7 +116,7 @@ bool shows_pixels(const EventContent& content) {
           }));
 }
 
-/// What cannot be understood without knowing what it was measured with.
+/// Wheels, cars and cameras that nobody knows: what they measured cannot be understood.
 Result<void> check_sensor_of(const Event& event, const Config& config) {
   if (std::holds_alternative<WheelAngles>(event.content)) return check(config.odometry.wheels);
   if (std::holds_alternative<Steering>(event.content)) return check(config.odometry.car);
@@ -116,14 +128,12 @@ Result<void> check_sensor_of(const Event& event, const Config& config) {
       "file"};
 }
 
-/// Truth goes to the record, the rest to the pipeline; wheels, cars and cameras that nobody knows end the
-/// run.
-Result<void> route(Event event, const Config& config, Recording& recording, Pipeline& pipeline) {
+/// Truth goes to the record, the rest to the pipeline.
+Result<void> route(Event event, Recording& recording, Pipeline& pipeline) {
   if (const auto* truth = std::get_if<Truth>(&event.content)) {
     recording.truth.emplace_back(event.stamp, *truth);
     return {};
   }
-  if (auto known = check_sensor_of(event, config); !known) return known;
   pipeline.push(std::move(event));
   if (auto refusal = recording.filter->refusal()) return *std::move(refusal);
   return {};
@@ -175,6 +185,7 @@ std::vector<FunctionBlocks::Row> blocks_of(const Filter& filter, const FrontEnd*
 
 Result<Recording> record(Source& source, const Config& config, const TimeSpan& span,
                          const std::function<bool(double)>& keep_going) {
+  if (auto valid = check_span(span); !valid) return valid.error();
   const auto start_map = read_start_map(config);
   if (!start_map) return start_map.error();
   auto system = make_filter_system(config, *start_map);
@@ -191,16 +202,20 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
       },
       front_end);
   const auto start = std::chrono::steady_clock::now();
+  Result<void> sensors_known;
   recording.error = read_all(source, span, keep_going, [&](Event event) {
-    return route(std::move(event), config, recording, pipeline);
+    sensors_known = check_sensor_of(event, config);
+    return sensors_known ? route(std::move(event), recording, pipeline) : sensors_known;
   });
   pipeline.finish();
+  const bool broke_off = recording.error && sensors_known && !recording.trajectory.empty();
   if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
   recording.odometry = pipeline.odometry();
   recording.blocks = blocks_of(*recording.filter, front_end);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
+  if (recording.error && !broke_off) return *recording.error;
   recording.notes = source.notes();
   if (front_end != nullptr) finish_images(recording, config, *front_end);
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));

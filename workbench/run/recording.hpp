@@ -57,14 +57,16 @@ struct Recording {
   std::optional<Error> error;      ///< why reading stopped before the end; everything above holds up to there
 };
 
-/// The part of a log to run on, in seconds from its first event.
+/// The part of a log to run on, in seconds from its first event: what --from and --to say.
 struct TimeSpan {
   double from_s = 0.0;
   double to_s = 1e18;
 };
 
 /// Runs a log through the filter that `config` asks for. `keep_going` is asked now and then with the part of
-/// the log done; false stops the run, which keeps what it has.
+/// the log done; false stops the run, which keeps what it has. An error where there is no result: the filter
+/// cannot be made, a sensor is not known, nothing in the span is what `config.observe` asks for, or the robot
+/// was never localised.
 [[nodiscard]] Result<Recording> record(Source& source, const Config& config, const TimeSpan& span = {},
                                        const std::function<bool(double)>& keep_going = {});
 

@@ -9,6 +9,7 @@
 #include "waymark/core/angle.hpp"
 #include "waymark/core/names.hpp"
 
+#include "workbench/config/flat_yaml.hpp"
 #include "workbench/config/known_settings_text.hpp"
 #include "workbench/config/read_file.hpp"
 #include "workbench/sim/marker_pattern.hpp"
@@ -188,10 +189,22 @@ void describe(Schema& schema, FaultOptions& o) {
 constexpr std::string_view kFolder = "sim/";
 constexpr std::string_view kFileEnding = ".yaml";
 
+/// Keys of other things than the world, unless they are mistyped ones of it.
+Result<void> check_world_keys(const Schema& schema, const std::string& yaml, const std::string& name) {
+  const auto entries = flatten_yaml(yaml, name);
+  if (!entries) return entries.error();
+  for (const FlatYamlEntry& entry : *entries)
+    if (!entry.key.starts_with("sim.") && schema.close_keys(entry.key, 1).empty())
+      return Error{fmt::format("{}:{}: a world has only keys `sim.*`; give {} by --config", name, entry.line,
+                               entry.key)};
+  return {};
+}
+
 Result<SimOptions> read_options(const std::string& yaml, const std::string& name) {
   SimOptions options;
   Schema schema;
   describe(schema, options);
+  if (auto valid = check_world_keys(schema, yaml, name); !valid) return valid.error();
   if (auto done = schema.load_text(yaml, name); !done) return done.error();
   return options;
 }

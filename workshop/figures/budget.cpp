@@ -164,7 +164,7 @@ int budget(const BudgetRequest& request) {
 }  // namespace
 
 void add_budget(CLI::App& app, int& status) {
-  auto* command = app.add_subcommand("budget", "images against the clock, and with less time than they want");
+  auto* command = app.add_subcommand("budget", "time per image, and accuracy with a smaller frame budget");
   auto request = std::make_shared<BudgetRequest>();
   command->add_option("--minutes", request->minutes, "of images against the clock")
       ->check(CLI::PositiveNumber);

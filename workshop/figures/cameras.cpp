@@ -229,7 +229,7 @@ void cameras(const CamerasRequest& request) {
 
 void add_cameras(CLI::App& app) {
   auto* command =
-      app.add_subcommand("cameras", "whether photographs of a board are told to be of two cameras");
+      app.add_subcommand("cameras", "how often photographs of a board from two cameras are detected");
   auto request = std::make_shared<CamerasRequest>();
   command->add_option("--seeds", request->seeds, "sets of each kind")->check(CLI::PositiveNumber);
   command->add_option("--only", request->only, "kinds whose name has this in it");

@@ -160,7 +160,7 @@ void print_table(const ForestRequest& request) {
 }  // namespace
 
 void add_forest(CLI::App& app) {
-  auto* command = app.add_subcommand("forest", "a filter without identities and with them");
+  auto* command = app.add_subcommand("forest", "a filter with unknown and with known identities");
   auto request = std::make_shared<ForestRequest>();
   command->add_option("--filter", request->filter)->check(CLI::IsMember({"ekf", "fastslam"}));
   command->add_option("--associate", request->associate, "how it does without identities");
