@@ -7,6 +7,9 @@
 
 #include "waymark/slam/pipeline.hpp"
 
+#include "workbench/run/check_jumps.hpp"
+#include "workbench/run/check_log.hpp"
+#include "workbench/run/check_refusals.hpp"
 #include "workbench/run/make_filter.hpp"
 
 namespace waymark {
@@ -144,6 +147,25 @@ std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe
   return Error{"observe: no observation of this log measures this; `waymark check` lists what it has"};
 }
 
+/// Without odometry the robot is taken to stand, which would pass for a result.
+std::optional<Error> find_missing_odometry(const Recording& recording, const LogInfo& log) {
+  if (recording.odometry) return std::nullopt;
+  return Error{describe_missing_odometry(log)};
+}
+
+/// What cannot be right in the log, or in where its landmarks are.
+std::vector<std::string> find_contradictions(const Recording& recording, const LogSample& sample,
+                                             const Config& config) {
+  std::vector<std::string> lines;
+  if (recording.trajectory.empty()) return lines;
+  const Stamp start = recording.trajectory.front().stamp;
+  std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
+  std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));
+  if (config.observe != Observe::kPixel)  // whose landmarks come and go
+    std::ranges::move(describe_refused_landmarks(recording.innovations, start), std::back_inserter(lines));
+  return lines;
+}
+
 /// Where the robot never found itself there is no result.
 std::optional<Error> find_unknown_pose(const Filter& filter) {
   if (filter.refusal() || filter.knows_pose()) return filter.refusal();
@@ -180,6 +202,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   auto system = make_filter_system(config, *start_map);
   if (!system) return system.error();
   Recording recording;
+  LogSample sample;
   recording.filter = std::move(system->filter);
   FrontEnd* const front_end = system->front_end.get();
   Pipeline pipeline(
@@ -187,18 +210,21 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
       [&](const Step& step) {
         if (!recording.filter->knows_pose()) return;
         keep(recording, step, front_end);
+        if (config.observe == Observe::kMarkers) sample.add(step.stamp, step.observations, config.sensor);
         if (config.smooth.run) keep_for_smoothing(recording, step);
       },
       front_end);
   const auto start = std::chrono::steady_clock::now();
   recording.error = read_all(source, span, keep_going, [&](Event event) {
+    sample.add(event, config.sensor);
     return route(std::move(event), config, recording, pipeline);
   });
   pipeline.finish();
+  recording.odometry = pipeline.odometry();
+  if (!recording.error) recording.error = find_missing_odometry(recording, source.info());
   if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
-  recording.odometry = pipeline.odometry();
   recording.blocks = blocks_of(*recording.filter, front_end);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   recording.notes = source.notes();
@@ -206,6 +232,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_unobservable(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
+  std::ranges::move(find_contradictions(recording, sample, config), std::back_inserter(recording.notes));
   return recording;
 }
 
