@@ -238,9 +238,9 @@ Result<Recording> record_standing(const std::vector<Event>& more) {
 
 TEST(Recording, ALogWithoutOdometryEndsAsCheckSays) {
   const auto run = record_standing({});
-  ASSERT_TRUE(run.ok() && run->error.has_value());
-  EXPECT_TRUE(run->error->message.starts_with("nothing can be run: there is no odometry"));
-  EXPECT_EQ(run->error->kind, Error::Kind::kBadInput);
+  ASSERT_FALSE(run.ok());
+  EXPECT_TRUE(run.error().message.starts_with("nothing can be run: there is no odometry"));
+  EXPECT_EQ(run.error().kind, Error::Kind::kBadInput);
 }
 
 TEST(Recording, NamesALandmarkThatWasCarried) {
