@@ -12,6 +12,8 @@
 #include "workbench/logs/image_loader.hpp"
 #include "workbench/logs/json_text.hpp"
 #include "workbench/report/results.hpp"
+#include "workbench/run/check_jumps.hpp"
+#include "workbench/run/check_log.hpp"
 
 namespace waymark::app {
 namespace {
@@ -52,6 +54,8 @@ struct Contents {
   std::set<std::string> measured;  ///< "range and bearing", ...
   std::vector<eval::PositionObservation> placed;
   std::vector<eval::TruthSample> truth;
+  LogSample sample;
+  std::optional<Stamp> start;
   std::vector<std::string> notes;
   std::optional<Error> error;
 };
@@ -94,7 +98,7 @@ void look_at(const GreyImage& image, Contents& contents) {
   if (*lightest - *darkest < kMinContrast) ++contents.blank_images;
 }
 
-Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
+Contents read_contents(Source& source, const LandmarkSensor& sensor) {
   Contents contents;
   while (true) {
     auto event = source.next();
@@ -104,9 +108,11 @@ Contents read_contents(Source& source, const Pose2& T_robot_sensor) {
     }
     if (!*event) break;
     const auto& [stamp, stream, content] = **event;
+    if (!contents.start) contents.start = stamp;
     contents.streams[name_of(content)].see(stamp);
+    contents.sample.add(**event, sensor);
     if (const auto* observations = std::get_if<Observations>(&content))
-      look_at(*observations, stamp, T_robot_sensor, contents);
+      look_at(*observations, stamp, sensor.T_robot_sensor(), contents);
     if (const auto* image = std::get_if<Image>(&content)) look_at(*image->pixels, contents);
     if (const auto* truth = std::get_if<Truth>(&content)) contents.truth.push_back({stamp, *truth});
   }
@@ -130,7 +136,7 @@ std::vector<std::string> survey_oddities(const CheckRequest& request, const LogI
   return describe(eval::compare_maps(result->recording.filter->snapshot().landmarks, log.landmarks));
 }
 
-std::vector<std::string> find_oddities(const CheckRequest& request, const LogInfo& log,
+std::vector<std::string> find_oddities(const CheckRequest& request, const Config& config, const LogInfo& log,
                                        const Contents& contents) {
   std::vector<std::string> oddities = contents.notes;
   for (const auto& [name, stream] : contents.streams)
@@ -141,6 +147,9 @@ std::vector<std::string> find_oddities(const CheckRequest& request, const LogInf
   if (contents.blank_images > 0)
     oddities.push_back(
         fmt::format("{} images show nothing: all pixels are nearly equal", contents.blank_images));
+  std::ranges::move(describe(jumps_of(contents.sample, config), contents.start.value_or(Stamp{})),
+                    std::back_inserter(oddities));
+  std::ranges::move(contradictions_in(contents.sample, config), std::back_inserter(oddities));
   std::ranges::move(survey_oddities(request, log, contents), std::back_inserter(oddities));
   return oddities;
 }
@@ -150,11 +159,7 @@ std::string advice(const CheckRequest& request, const Config& config, const LogI
                    const Contents& contents) {
   const auto has = [&contents](const char* name) { return contents.streams.contains(name); };
   if (!has("wheel angles") && !has("velocity") && !has("steering") && !has("odometry poses"))
-    return log.topics.empty()
-               ? "nothing can be run: there is no odometry (expected wheels.csv, velocity.csv, steering.csv "
-                 "or odometry.csv)"
-               : "nothing can be run: there is no odometry (expected a topic of type nav_msgs/Odometry, "
-                 "sensor_msgs/JointState, geometry_msgs/TwistStamped, Twist or PoseStamped)";
+    return describe_missing_odometry(log);
   if (!has("observations") && !has("images") && !has("marker corners"))
     return "only dead reckoning can be run: there are no observations";
   if (log.only_pixels && !config.camera_known)
@@ -233,9 +238,9 @@ Result<void> check_log(const CheckRequest& request) {
   auto opened = open_input(request.input, request.flags.settings());
   if (!opened) return opened.error();
   ImageLoader source(std::move(opened->source));
-  const Contents contents = read_contents(source, opened->config.sensor.T_robot_sensor());
+  const Contents contents = read_contents(source, opened->config.sensor);
   const LogInfo& log = source.info();
-  const auto oddities = find_oddities(request, log, contents);
+  const auto oddities = find_oddities(request, opened->config, log, contents);
   const std::string next = advice(request, opened->config, log, contents);
   (request.verbosity.json ? print_log_json : print_log_text)(log, contents, oddities, next);
   if (contents.error) return *contents.error;

@@ -466,6 +466,7 @@ mkdir still
 printf 'waymark_log: 1\nname: still\n' >still/log.yaml
 printf 'stamp_s,id,range_m,bearing_rad\n0,1,2,0\n1,1,2,0\n' >still/observations.csv
 refuses 2 'no odometry' calibrate mount still -o c
+refuses 2 'nothing can be run: there is no odometry' run still -o o
 does calibrate mount sim:square --to 8 -o straight
 grep -q 'not observable in this log' out.txt || fail 'calibrate says nothing of a straight way'
 does calibrate odometry log -o c --set wheels.track_m=0.3 --quiet

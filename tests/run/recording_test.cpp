@@ -211,14 +211,15 @@ TEST(Recording, PixelsThatALogDoesNotHaveGiveNoResult) {
   EXPECT_NE(run.error().message.find("observe"), std::string::npos);
 }
 
-/// A log of one event by a camera that nobody knows, or else is set.
+/// A log of a robot that stands, and one event by a camera that nobody knows, or else is set.
 std::optional<Error> error_of(EventContent content, const std::vector<std::string>& settings) {
   Config config;
   config.observe = Observe::kPixel;
   Schema schema = describe(config);
   for (const std::string& setting : settings) EXPECT_TRUE(schema.set_assignment(setting, "test").ok());
   config.camera_known = schema.was_set("camera.fu_px");
-  EventList log({.name = "log", .format = "made"}, {{stamp_from_seconds(1.0), std::move(content)}});
+  EventList log({.name = "log", .format = "made"},
+                {{Stamp{}, Velocity{}}, {stamp_from_seconds(1.0), std::move(content)}});
   auto run = record(log, config);
   return run ? run->error : run.error();
 }
@@ -234,6 +235,47 @@ TEST(Recording, ImagesAndPixelsOfACameraThatNobodyKnowsGiveNoResultAndSayWhatToD
     EXPECT_EQ(error->kind, Error::Kind::kBadInput);
     EXPECT_FALSE(error_of(content, {"camera.fu_px=277"}).has_value());
   }
+}
+
+/// A log of one landmark ahead of a robot that stands for 20 s. The landmark is carried after 10 s.
+Result<Recording> record_standing(const std::vector<Event>& more) {
+  std::vector<Event> events = more;
+  for (int i = 0; i < 100; ++i)
+    events.push_back(
+        {stamp_from_seconds(0.2 * i),
+         Observations{
+             {LandmarkId{LandmarkId::Family::kMarker, 4}, RangeBearing{2.0, 0.0}, {}},
+             {LandmarkId{LandmarkId::Family::kMarker, 5}, RangeBearing{3.0, 1.0}, {}},
+             {LandmarkId{LandmarkId::Family::kMarker, 3}, RangeBearing{2.0, i < 50 ? 0.5 : 2.5}, {}}}});
+  EventList log({.name = "log", .format = "made"}, std::move(events));
+  return record(log, {});
+}
+
+TEST(Recording, ALogWithoutOdometryEndsAsCheckSays) {
+  const auto run = record_standing({});
+  ASSERT_FALSE(run.ok());
+  EXPECT_TRUE(run.error().message.starts_with("nothing can be run: there is no odometry"));
+  EXPECT_EQ(run.error().kind, Error::Kind::kBadInput);
+}
+
+TEST(Recording, NamesALandmarkThatWasCarried) {
+  const auto run = record_standing({{Stamp{}, Velocity{}}});
+  ASSERT_TRUE(run.ok() && !run->error);
+  EXPECT_TRUE(
+      std::ranges::any_of(run->notes, [](const auto& note) { return note.starts_with("landmark 3: "); }));
+  EXPECT_FALSE(
+      std::ranges::any_of(run->notes, [](const auto& note) { return note.starts_with("landmark 4: "); }));
+}
+
+TEST(Recording, SaysWhenTheOdometryJumps) {
+  std::vector<Event> velocities;
+  for (int i = 0; i < 200; ++i)
+    velocities.push_back({stamp_from_seconds(0.1 * i), Velocity{i == 70 ? 50.0 : 0.0, 0.0}});
+  const auto run = record_standing(velocities);
+  ASSERT_TRUE(run.ok() && !run->error);
+  EXPECT_LT(run->dead_reckoning.back().pose.position().norm(), 1e-9);
+  EXPECT_TRUE(std::ranges::any_of(
+      run->notes, [](const auto& note) { return note.find("once, at 7.00 s") != std::string::npos; }));
 }
 
 /// Events as they are given, also out of order.

@@ -1,6 +1,7 @@
 #include "waymark/slam/odometer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "waymark/core/angle.hpp"
 
@@ -16,6 +17,21 @@ template <class Value>
 Value between(const std::pair<Stamp, Value>& a, const std::pair<Stamp, Value>& b, Stamp stamp) {
   return interpolate(a.second, b.second, to_seconds(stamp - a.first) / to_seconds(b.first - a.first));
 }
+
+/// Part of a step was not measured: it has these standard deviations in forward, left and turn as a whole.
+Motion unsure(Motion motion, const ReadingStep& sigma, double part) {
+  motion.covariance.diagonal() += part * sigma.square().matrix();
+  return motion;
+}
+
+/// Of the robot, where those are of its wheels.
+ReadingStep robot_sigma(const ReadingStep& wheels_m, double track_m) {
+  const double both_m = std::hypot(wheels_m[0], wheels_m[1]);
+  return {0.5 * both_m, 0.0, both_m / track_m};
+}
+
+Eigen::Array2d components(const Velocity& velocity) { return {velocity.v_mps, velocity.w_radps}; }
+Eigen::Array2d components(const Steering& steering) { return {steering.v_mps, steering.steer_rad}; }
 
 Motion motion_of(const Velocity& velocity, double dt_s, const OdometryOptions& options) {
   return velocity_motion(velocity, dt_s, options);
@@ -58,11 +74,19 @@ std::optional<Value> SampledTrack<Value>::at(Stamp stamp, const std::pair<Stamp,
   return between(*before_last_, *last_, std::min(stamp, last_->first + max_hold));
 }
 
+template <class Value>
+double SampledTrack<Value>::part(Stamp from, Stamp to, Stamp next) const {
+  const double whole_s = to_seconds(next - last_->first);
+  return whole_s > 0.0 ? std::clamp(to_seconds(to - from) / whole_s, 0.0, 1.0) : 1.0;
+}
+
 Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
     : options_(options),
       turn_bias_(options.standing),
       max_hold_(duration_from_seconds(max_hold_s)),
-      yaw_rate_(max_hold_) {}
+      yaw_rate_(max_hold_),
+      wheel_jumps_(options.wheels),
+      pose_jumps_(options.wheels) {}
 
 Motion Odometer::advance(Stamp stamp, const Event* next, const Event* next_yaw_rate) {
   Motion motion;
@@ -91,24 +115,44 @@ Motion Odometer::advance_held(Stamp stamp) {
   if (stamp > held_until && *now_ <= held_until) ++gaps_;
   const Duration held = std::min(stamp, held_until) - *now_;
   if (held <= Duration{0}) return {};
-  return std::visit([&](const auto& speed) { return motion_of(speed, to_seconds(held), options_); }, *held_);
+  const double held_s = to_seconds(held);
+  const Motion motion =
+      std::visit([&](const auto& speed) { return motion_of(speed, held_s, options_); }, *held_);
+  if (held_is_measured_) return motion;
+  const Eigen::Array2d sigma = held_s * speeds_.fastest();
+  return unsure(motion, {sigma[0], 0.0, sigma[1]}, 1.0);
 }
 
 Motion Odometer::advance_wheels(Stamp stamp, const Event* next) {
   std::optional<std::pair<Stamp, WheelAngles>> after;
-  if (const auto* angles = content_of<WheelAngles>(next)) after = {next->stamp, *angles};
+  ReadingStep sigma = ReadingStep::Zero();
+  if (const auto* angles = content_of<WheelAngles>(next)) {
+    const auto continued = wheel_jumps_.continued(next->stamp, *angles);
+    after = {next->stamp, continued.value};
+    sigma = continued.sigma;
+  }
   const WheelAngles then = *wheels_now_;
   wheels_now_ = wheel_track_.at(stamp, after ? &*after : nullptr, max_hold_);
-  return wheel_motion({wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad},
-                      options_);
+  const Motion motion = wheel_motion(
+      {wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad}, options_);
+  if (sigma.isZero(0.0)) return motion;
+  return unsure(motion, robot_sigma(sigma, options_.wheels.track_m),
+                wheel_track_.part(*now_, stamp, next->stamp));
 }
 
 Motion Odometer::advance_pose(Stamp stamp, const Event* next) {
   std::optional<std::pair<Stamp, Pose2>> after;
-  if (const auto* pose = content_of<OdometryPose>(next)) after = {next->stamp, pose->T_odom_robot};
+  ReadingStep sigma = ReadingStep::Zero();
+  if (const auto* pose = content_of<OdometryPose>(next)) {
+    const auto continued = pose_jumps_.continued(next->stamp, pose->T_odom_robot);
+    after = {next->stamp, continued.value};
+    sigma = continued.sigma;
+  }
   const Pose2 then = *pose_now_;
   pose_now_ = pose_track_.at(stamp, after ? &*after : nullptr, max_hold_);
-  return odometry_pose_motion(then, *pose_now_, options_);
+  const Motion motion = odometry_pose_motion(then, *pose_now_, options_);
+  if (sigma.isZero(0.0)) return motion;
+  return unsure(motion, sigma, pose_track_.part(*now_, stamp, next->stamp));
 }
 
 bool Odometer::follows(const Event& event) const {
@@ -123,19 +167,33 @@ bool Odometer::add(const Event& event) {
   now_ = event.stamp;
   if (yaw_rate != nullptr) yaw_rate_.add(event.stamp, *yaw_rate);
   if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
-    held_ = *velocity;
-    held_since_ = event.stamp;
+    hold(event.stamp, *velocity);
   } else if (const auto* steering = std::get_if<Steering>(&event.content)) {
-    held_ = *steering;
-    held_since_ = event.stamp;
+    hold(event.stamp, *steering);
   } else if (const auto* wheels = std::get_if<WheelAngles>(&event.content)) {
-    wheel_track_.add(event.stamp, *wheels);
-    if (!wheels_now_) wheels_now_ = *wheels;
+    const WheelAngles continued = wheel_jumps_.continued(event.stamp, *wheels).value;
+    wheel_jumps_.add(event.stamp, *wheels);
+    wheel_track_.add(event.stamp, continued);
+    if (!wheels_now_) wheels_now_ = continued;
   } else if (const auto* pose = std::get_if<OdometryPose>(&event.content)) {
-    pose_track_.add(event.stamp, pose->T_odom_robot);
-    if (!pose_now_) pose_now_ = pose->T_odom_robot;
+    const Pose2 continued = pose_jumps_.continued(event.stamp, pose->T_odom_robot).value;
+    pose_jumps_.add(event.stamp, pose->T_odom_robot);
+    pose_track_.add(event.stamp, continued);
+    if (!pose_now_) pose_now_ = continued;
   }
   return true;
+}
+
+void Odometer::hold(Stamp stamp, const std::variant<Velocity, Steering>& speed) {
+  const Eigen::Array2d told = std::visit([](const auto& each) { return components(each); }, speed);
+  held_is_measured_ = speeds_.accept(stamp, told);
+  held_since_ = stamp;
+  if (held_is_measured_) held_ = speed;
+}
+
+const OdometryJumps& Odometer::jumps() const {
+  if (wheels_now_) return wheel_jumps_.jumps();
+  return pose_now_ ? pose_jumps_.jumps() : speeds_.jumps();
 }
 
 std::optional<OdometryKind> Odometer::kind() const {

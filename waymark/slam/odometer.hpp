@@ -6,6 +6,7 @@
 
 #include "waymark/core/event.hpp"
 #include "waymark/models/odometry.hpp"
+#include "waymark/slam/jump_filter.hpp"
 #include "waymark/slam/turn_bias.hpp"
 #include "waymark/slam/yaw_rate_track.hpp"
 
@@ -28,6 +29,8 @@ class SampledTrack {
   void add(Stamp stamp, const Value& value);
   [[nodiscard]] std::optional<Value> at(Stamp stamp, const std::pair<Stamp, Value>* next,
                                         Duration max_hold) const;
+  /// The part that [from, to] is of the time from the last sample to `next`, in [0, 1].
+  [[nodiscard]] double part(Stamp from, Stamp to, Stamp next) const;
 
  private:
   std::optional<std::pair<Stamp, Value>> before_last_;
@@ -35,7 +38,9 @@ class SampledTrack {
 };
 
 /// Turns whatever kind of odometry a log has into the motion between any two stamps. The first stream of
-/// odometry that appears counts; a log with two would otherwise move twice. Where a gyro tells the yaw rate,
+/// odometry that appears counts; a log with two would otherwise move twice. Readings that no robot can follow
+/// (JumpFilter, SpeedFilter) make no motion: it goes on as before them, with noise that covers what was not
+/// measured. Where a gyro tells the yaw rate,
 /// its integral is the heading instead of the odometry's. Learns, whenever the robot stands, how its heading
 /// turns by itself, and takes that out.
 class Odometer {
@@ -61,6 +66,9 @@ class Odometer {
   /// Times that odometry was missing for longer than it may be held: the robot was taken to stand still.
   [[nodiscard]] int gaps() const { return gaps_; }
 
+  /// What no robot can do, in the odometry so far.
+  [[nodiscard]] const OdometryJumps& jumps() const;
+
  private:
   /// Which odometry it is: the alternative of EventContent, and who tells it.
   struct Track {
@@ -75,6 +83,7 @@ class Odometer {
   [[nodiscard]] Motion advance_held(Stamp stamp);
   [[nodiscard]] Motion advance_wheels(Stamp stamp, const Event* next);
   [[nodiscard]] Motion advance_pose(Stamp stamp, const Event* next);
+  void hold(Stamp stamp, const std::variant<Velocity, Steering>& speed);
 
   OdometryOptions options_;
   TurnBias turn_bias_;
@@ -86,7 +95,11 @@ class Odometer {
 
   std::optional<std::variant<Velocity, Steering>> held_;  // until the next one
   Stamp held_since_;
+  bool held_is_measured_ = true;  // false: it is of before a reading that no robot can follow
+  SpeedFilter speeds_;
   YawRateTrack yaw_rate_;
+  JumpFilter<WheelAngles> wheel_jumps_;
+  JumpFilter<Pose2> pose_jumps_;
   SampledTrack<WheelAngles> wheel_track_;
   SampledTrack<Pose2> pose_track_;
   std::optional<WheelAngles> wheels_now_;

@@ -252,6 +252,7 @@ void Pipeline::take(const Image& image) {
 PipelineCounts Pipeline::counts() const {
   PipelineCounts counts = counts_;
   counts.odometry_gaps = odometer_.gaps();
+  counts.odometry_jumps = odometer_.jumps();
   return counts;
 }
 

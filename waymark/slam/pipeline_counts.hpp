@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "waymark/slam/odometry_jumps.hpp"
+
 namespace waymark {
 
 /// Counts of events and observations that were not used, by reason.
@@ -20,6 +22,7 @@ struct PipelineCounts {
   std::int64_t misfits = 0;          ///< images without pixels or of another size than the camera's
   std::int64_t repeats = 0;          ///< images with the stamp or all the pixels of the one before
   int odometry_gaps = 0;
+  OdometryJumps odometry_jumps;
 };
 
 }  // namespace waymark

@@ -7,6 +7,9 @@
 
 #include "waymark/slam/pipeline.hpp"
 
+#include "workbench/run/check_jumps.hpp"
+#include "workbench/run/check_log.hpp"
+#include "workbench/run/check_refusals.hpp"
 #include "workbench/run/make_filter.hpp"
 
 namespace waymark {
@@ -154,6 +157,19 @@ std::optional<Error> find_wrong_mode(const Recording& recording, Observe observe
   return Error{"observe: no observation of this log measures this; `waymark check` lists what it has"};
 }
 
+/// What cannot be right in the log, or in where its landmarks are.
+std::vector<std::string> find_contradictions(const Recording& recording, const LogSample& sample,
+                                             const Config& config) {
+  std::vector<std::string> lines;
+  if (recording.trajectory.empty()) return lines;
+  const Stamp start = recording.trajectory.front().stamp;
+  std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
+  std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));
+  if (config.observe != Observe::kPixel)  // whose landmarks come and go
+    std::ranges::move(describe_refused_landmarks(recording.innovations, start), std::back_inserter(lines));
+  return lines;
+}
+
 /// Where the robot never found itself there is no result.
 std::optional<Error> find_unknown_pose(const Filter& filter) {
   if (filter.refusal() || filter.knows_pose()) return filter.refusal();
@@ -191,6 +207,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   auto system = make_filter_system(config, *start_map);
   if (!system) return system.error();
   Recording recording;
+  LogSample sample;
   recording.filter = std::move(system->filter);
   FrontEnd* const front_end = system->front_end.get();
   Pipeline pipeline(
@@ -198,21 +215,26 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
       [&](const Step& step) {
         if (!recording.filter->knows_pose()) return;
         keep(recording, step, front_end);
+        if (config.observe == Observe::kMarkers) sample.add(step.stamp, step.observations, config.sensor);
         if (config.smooth.run) keep_for_smoothing(recording, step);
       },
       front_end);
   const auto start = std::chrono::steady_clock::now();
   Result<void> sensors_known;
   recording.error = read_all(source, span, keep_going, [&](Event event) {
+    sample.add(event, config.sensor);
     sensors_known = check_sensor_of(event, config);
-    return sensors_known ? route(std::move(event), recording, pipeline) : sensors_known;
+    return sensors_known ? route(std::move(event), config, recording, pipeline) : sensors_known;
   });
   pipeline.finish();
+  recording.odometry = pipeline.odometry();
+  // The robot would be taken to stand, which would pass for a result. A later part of a log may have none.
+  if (!recording.error && !recording.odometry && span.from_s <= 0.0)
+    return Error{describe_missing_odometry(source.info())};
   const bool broke_off = recording.error && sensors_known && !recording.trajectory.empty();
   if (!recording.error) recording.error = find_unknown_pose(*recording.filter);
   recording.wall = std::chrono::steady_clock::now() - start;
   recording.counts = pipeline.counts();
-  recording.odometry = pipeline.odometry();
   recording.blocks = blocks_of(*recording.filter, front_end);
   if (!recording.error) recording.error = find_wrong_mode(recording, config.observe);
   if (recording.error && !broke_off) return *recording.error;
@@ -221,6 +243,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   std::ranges::move(describe_counts(recording.counts), std::back_inserter(recording.notes));
   std::ranges::move(describe_unobservable(config), std::back_inserter(recording.notes));
   std::ranges::move(describe_refusals(recording.innovations), std::back_inserter(recording.notes));
+  std::ranges::move(find_contradictions(recording, sample, config), std::back_inserter(recording.notes));
   return recording;
 }
 
