@@ -53,6 +53,7 @@ TEST_F(FaultIsolationTest, TwoThatAgreeOutweighASingleFirstObservation) {
   gated(1, 3.001);
   EXPECT_TRUE(faults_.is_landmark_wrong(0));
   EXPECT_EQ(faults_.false_firsts(), 1);
+  EXPECT_EQ(faults_.health().false_firsts, 1);
 }
 
 TEST_F(FaultIsolationTest, OutliersThatContradictEachOtherProveNothing) {
@@ -118,6 +119,8 @@ TEST_F(FaultIsolationTest, ALandmarkThatIsFoundElsewhereAgainIsDistrusted) {
   }
   EXPECT_TRUE(faults_.is_distrusted(marker(1)));
   EXPECT_FALSE(faults_.is_distrusted(marker(2)));
+  EXPECT_EQ(faults_.health().carried, 1);
+  EXPECT_EQ(faults_.health().distrusted, 1);
 }
 
 TEST_F(FaultIsolationTest, WhatALostRobotAddedSupportsNothing) {
@@ -165,7 +168,8 @@ TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMa
   for (int number = 1; number <= 3; ++number) add(number);
   for (int i = 0; i < 2; ++i)
     for (int number = 1; number <= 3; ++number) {
-      const Eigen::Vector2d p = T_world_robot.inverse() * Eigen::Vector2d(map.landmarks.segment<2>(2 * number - 2));
+      const Eigen::Vector2d p =
+          T_world_robot.inverse() * Eigen::Vector2d(map.landmarks.segment<2>(2 * number - 2));
       gated(number, p.norm(), std::atan2(p.y(), p.x()));
     }
   ASSERT_TRUE(faults_.is_robot_lost());
@@ -179,8 +183,11 @@ TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMa
   // Places that are unsure by 1 cm each give a pose of about a centimetre, told as three times that.
   EXPECT_GT(motion->covariance(0, 0), 1e-5);
   EXPECT_LT(motion->covariance(0, 0), 9e-3);
+  EXPECT_TRUE(faults_.health().lost);
   faults_.relocated();
   EXPECT_FALSE(faults_.is_robot_lost());
+  EXPECT_FALSE(faults_.health().lost);
+  EXPECT_EQ(faults_.health().recoveries, 1);
 
   map.landmarks[0] = 9.0;
   map.landmarks[3] = 9.0;

@@ -97,6 +97,17 @@ TEST(EkfSlam, TellsHowLikelyAnObservationWas) {
   }
 }
 
+TEST(EkfSlam, TellsInnovationsInTheirStandardDeviations) {
+  CircleWorld world(4);
+  EkfSlam filter({ekf::Consistency::kStandard, 20}, world.sensor());
+  drive(filter, world, 30);
+  Observation seen = world.sight(0);
+  seen.value = Range{std::get<RangeBearing>(seen.value).range_m};
+  const Innovation range = filter.correct({&seen, 1}).innovations[0];
+  EXPECT_NEAR(range.standardised[0] * range.standardised[0], range.nis, 1e-9 * range.nis);
+  EXPECT_EQ(range.standardised[1], 0.0);
+}
+
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
   EkfSlam filter = make(world, 8);

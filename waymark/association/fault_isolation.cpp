@@ -11,11 +11,11 @@ namespace waymark {
 namespace {
 
 // docs/robust.md, "How many observations".
-constexpr int kOutweighOne = 2;   // that agree with each other, against one
-constexpr int kOutweighMany = 3;  // against those of a landmark that was observed more than once
-constexpr int kOutweighOneUnplaced = 3;   // of ranges or bearings alone, of which any two agree
+constexpr int kOutweighOne = 2;          // that agree with each other, against one
+constexpr int kOutweighMany = 3;         // against those of a landmark that was observed more than once
+constexpr int kOutweighOneUnplaced = 3;  // of ranges or bearings alone, of which any two agree
 constexpr int kOutweighManyUnplaced = 6;
-constexpr int kSupport = 3;       // accepted observations of other landmarks meanwhile
+constexpr int kSupport = 3;  // accepted observations of other landmarks meanwhile
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
 // The expectation of a landmark is this many times as unsure as its observation (area of the ellipses): an
@@ -229,7 +229,16 @@ std::optional<Motion> FaultIsolation::find_motion(const MapState& map, const Pos
                 9.0 * increment_covariance(found.best, seen, map, T_world_robot), 0.0};
 }
 
+FilterHealth FaultIsolation::health() const {
+  return {.false_firsts = false_firsts_,
+          .carried = static_cast<int>(carried_.size()),
+          .distrusted = static_cast<int>(distrusted_.size()),
+          .recoveries = relocations_,
+          .lost = lost_};
+}
+
 void FaultIsolation::relocated() {
+  ++relocations_;
   lost_ = false;
   asked_at_ = 0;
   ++support_;

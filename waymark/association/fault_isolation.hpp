@@ -89,6 +89,9 @@ class FaultIsolation {
   /// dropped.
   [[nodiscard]] bool is_distrusted(LandmarkId id) const;
 
+  /// What was found out so far, in numbers.
+  [[nodiscard]] FilterHealth health() const;
+
   /// Landmarks that began anew because the only observation before was false.
   [[nodiscard]] int false_firsts() const { return false_firsts_; }
   /// Landmarks that were found elsewhere.
@@ -131,6 +134,7 @@ class FaultIsolation {
   int contradicting_ = 0;  // observations that say that the robot is lost
   int asked_at_ = 0;       // value of that at the last relocation that was tried
   int false_firsts_ = 0;
+  int relocations_ = 0;
   std::vector<LandmarkId> carried_;
   std::vector<LandmarkId> distrusted_;
 };

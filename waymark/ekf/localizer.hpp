@@ -34,6 +34,7 @@ class Localizer final : public Filter {
   [[nodiscard]] PoseEstimate pose() const override { return ekf_.pose(); }
   [[nodiscard]] bool knows_pose() const override { return located_; }
   [[nodiscard]] std::optional<Error> refusal() const override { return refusal_; }
+  [[nodiscard]] FilterHealth health() const override;
   [[nodiscard]] Snapshot snapshot() const override { return ekf_.snapshot(); }
   [[nodiscard]] MapState save() const override { return ekf_.save(); }
   [[nodiscard]] const FunctionBlocks& blocks() const override { return ekf_.blocks(); }
@@ -60,9 +61,9 @@ class Localizer final : public Filter {
   EkfSlam ekf_;
   bool located_ = false;
   std::optional<Error> refusal_;
-  int observations_ = 0;                  // in it
-  double driven_s_ = 0.0;                 // meanwhile
-  int doubt_ = 0;                         // observations that contradict, less those that agree
+  int observations_ = 0;   // in it
+  double driven_s_ = 0.0;  // meanwhile
+  int doubt_ = 0;          // observations that contradict, less those that agree
   int losses_ = 0;
   std::vector<Innovation> innovations_;
   Correction searching_;

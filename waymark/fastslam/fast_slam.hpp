@@ -38,7 +38,8 @@ namespace waymark {
 /// Robust where the plain filter starves:
 /// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
 ///   moves them instead (fastslam::ScanUpdate).
-/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether the
+/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether
+/// the
 ///   robot or a landmark is to blame for those that are is what FaultIsolation tells.
 /// * Weights never collapse onto a few particles (fastslam::AdaptiveResampling).
 /// * The pose and its covariance are taken after weighting and before resampling.
@@ -54,6 +55,7 @@ class FastSlam final : public Filter {
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
   [[nodiscard]] PoseEstimate pose() const override { return belief_.pose(); }
+  [[nodiscard]] FilterHealth health() const override { return faults_.health(); }
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }
