@@ -180,8 +180,9 @@ void describe(Schema& schema, FaultOptions& o) {
   schema.real("sim.robot_carried_m", o.robot_carried_m, {0.0, 1000.0}, "how far, m, in any direction");
   schema.real("sim.robot_carried_deg", o.robot_carried_deg, {0.0, 180.0},
               "and how much it is turned, degrees, either way");
-  schema.boolean("sim.omit_false", o.omit,
-                 "leave out false observations, and those of a carried landmark: what the log would be without");
+  schema.boolean(
+      "sim.omit_false", o.omit,
+      "leave out false observations, and those of a carried landmark: what the log would be without");
 }
 
 constexpr std::string_view kFolder = "sim/";
