@@ -168,6 +168,12 @@ test_initialise() {
   grep -q '</svg>' strips.svg || fail 'no drawing'
 }
 
+test_verdicts() {
+  prints --pairs 6
+  within 'runs without fault called good: ' 1 4 6
+  within 'wrong runs called good: ' 1 0 1
+}
+
 # Every subcommand is tested: those of --help are those named.
 test_coverage() {
   "$figures" --help >out.txt
