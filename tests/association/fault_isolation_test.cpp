@@ -55,6 +55,7 @@ TEST_F(FaultIsolationTest, TwoThatAgreeOutweighASingleFirstObservation) {
   gated(1, 3.001);
   EXPECT_TRUE(faults_.is_landmark_wrong(0));
   EXPECT_EQ(faults_.false_firsts(), 1);
+  EXPECT_EQ(faults_.health().false_firsts, 1);
 }
 
 TEST_F(FaultIsolationTest, OutliersThatContradictEachOtherProveNothing) {
@@ -194,6 +195,8 @@ TEST_F(FaultIsolationTest, ALandmarkThatIsFoundElsewhereAgainIsDistrusted) {
   }
   EXPECT_TRUE(faults_.is_distrusted(marker(1)));
   EXPECT_FALSE(faults_.is_distrusted(marker(2)));
+  EXPECT_EQ(faults_.health().carried, 1);
+  EXPECT_EQ(faults_.health().distrusted, 1);
 }
 
 TEST_F(FaultIsolationTest, WhatALostRobotAddedSupportsNothing) {
@@ -273,7 +276,8 @@ TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMa
   int moved = 0;
   faults_.relocate(map, believed, innovations_, [&](const Motion&) { ++moved; });
   EXPECT_EQ(moved, 1);
-  EXPECT_EQ(faults_.recoveries(), 1);
+  EXPECT_EQ(faults_.health().recoveries, 1);
+  EXPECT_FALSE(faults_.health().lost);
   EXPECT_FALSE(faults_.is_robot_lost());
 }
 

@@ -97,6 +97,17 @@ TEST(EkfSlam, TellsHowLikelyAnObservationWas) {
   }
 }
 
+TEST(EkfSlam, TellsInnovationsInTheirStandardDeviations) {
+  CircleWorld world(4);
+  EkfSlam filter({ekf::Consistency::kStandard, 20}, world.sensor());
+  drive(filter, world, 30);
+  Observation seen = world.sight(0);
+  seen.value = Range{std::get<RangeBearing>(seen.value).range_m};
+  const Innovation range = filter.correct({&seen, 1}).innovations[0];
+  EXPECT_NEAR(range.standardised[0] * range.standardised[0], range.nis, 1e-9 * range.nis);
+  EXPECT_EQ(range.standardised[1], 0.0);
+}
+
 TEST(EkfSlam, RefusesWhatItCannotUseAndSaysWhy) {
   CircleWorld world(3);
   EkfSlam filter = make(world, 8);
@@ -320,7 +331,7 @@ TEST(EkfSlam, FindsItselfAgainAfterASlipThatItsOdometryDidNotSee) {
   world.move();  // of which the filter is not observable
   for (int i = 0; i < 20; ++i) world.move();
   drive(filter, world, 30);
-  EXPECT_GT(filter.faults().recoveries(), 0);
+  EXPECT_GT(filter.health().recoveries, 0);
   const auto pose = filter.pose();
   EXPECT_LT(*mahalanobis_squared<3>(difference(world.truth(), pose.T_world_robot), pose.covariance),
             chi2_quantile(0.9999, 3));

@@ -40,6 +40,8 @@ TEST_F(InnovationGateTest, TheNisIsThatOfTheInnovationByItsWholeCovariance) {
   EXPECT_EQ(told.dof, 2);
   EXPECT_NEAR(told.nis, 0.2 * 0.2 / S_rr, 1e-2);
   EXPECT_NEAR(told.log_density, -0.5 * (told.nis + std::log(4.0 * kPi * kPi * S_rr * S_bb)), 1e-3);
+  EXPECT_NEAR(told.standardised[0], 0.2 / std::sqrt(S_rr), 1e-2);
+  EXPECT_NEAR(told.standardised[1], 0.0, 1e-2);
 }
 
 TEST_F(InnovationGateTest, WhatTheSetDoesNotExpectIsGated) {
@@ -53,6 +55,8 @@ TEST_F(InnovationGateTest, ARangeAloneHasOneDegreeOfFreedom) {
   const Innovation told = judged(test::range_alone(4.2));
   EXPECT_EQ(told.dof, 1);
   EXPECT_NEAR(told.gate, 6.63, 0.01);
+  EXPECT_NEAR(told.standardised[0] * told.standardised[0], told.nis, 1e-9);
+  EXPECT_EQ(told.standardised[1], 0.0);
 }
 
 TEST_F(InnovationGateTest, APendingMotionThatIsUnsureLetsMorePass) {

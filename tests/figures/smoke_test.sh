@@ -180,6 +180,12 @@ test_carried() {
   within '  found back within 10 s: ' 1 1 1
 }
 
+test_verdicts() {
+  prints --pairs 6
+  within 'runs without fault called good: ' 1 4 6
+  within 'wrong runs called good: ' 1 0 1
+}
+
 # Every subcommand is tested: those of --help are those named.
 test_coverage() {
   "$figures" --help >out.txt

@@ -118,6 +118,8 @@ grep -q '"associate": "ml"' out.txt || fail 'a log folder without identities is 
 does run forest -o without_identity --json
 grep -q '"associate": "jcbb"' out.txt || fail 'a log folder without identities is not associated by the EKF'
 does run log -o whole
+grep -q '^verdict: ' <(head -n 1 out.txt) || fail 'run does not begin with its verdict'
+grep -q '"verdict"' whole/metrics.json || fail 'metrics.json has no verdict'
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"
 done

@@ -24,8 +24,9 @@ TEST(ReportPage, DrawsEverythingAndAnswers) {
   EXPECT_EQ(count(page.body, kUplot), 8U);  // position; x, y, heading, NEES; innovations, histogram; steps
   EXPECT_EQ(count(page.body, "class=\"map-frame\""), 1U);
   EXPECT_EQ(count(page.body, "<ellipse"), 5U);  // of the one image that is shown
-  for (const char* text : {"Runs compared", "Function blocks", "position_rmse_m",
-                           "3 observations came before", "Run it again"}) {
+  for (const char* text :
+       {"Runs compared", "Function blocks", "position_rmse_m", "3 observations came before", "Run it again",
+        "class=\"verdict warn\"", "lost and found again 2 times"}) {
     EXPECT_NE(page.body.find(text), std::string::npos) << text;
   }
 }

@@ -97,6 +97,7 @@ RunData run(const std::string& name, std::size_t rows, double error_m) {
   run.image_strip = image_strip();
   run.metrics_json =
       R"({"input": "sim:circle", "observe": "range-bearing", "duration_s": 90.0, "nis_per_dof": 1.02,
+    "verdict": {"level": "unsure", "reasons": ["the robot was lost and found again 2 times"]},
     "step_us": {"p50": 50.0, "p99": 80.0}, "truth": {"position_rmse_m": 0.05, "odometry_position_rmse_m": 1.0}})";
   run.notes = {"3 observations came before the first odometry"};
   return run;

@@ -241,6 +241,14 @@ std::optional<Motion> FaultIsolation::find_motion(const MapState& map, const Pos
                 9.0 * increment_covariance(found.best, seen, map, T_world_robot), 0.0};
 }
 
+FilterHealth FaultIsolation::health() const {
+  return {.false_firsts = false_firsts_,
+          .carried = static_cast<int>(carried_.size()),
+          .distrusted = static_cast<int>(distrusted_.size()),
+          .recoveries = recoveries_,
+          .lost = lost_};
+}
+
 bool FaultIsolation::knows_places() const {
   return std::ranges::any_of(contradictions_, &Contradiction::placed);
 }

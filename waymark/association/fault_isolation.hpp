@@ -69,8 +69,6 @@ class FaultIsolation {
   /// The motion that takes the robot from where it is believed to be to where the landmarks that contradict
   /// that are arranged as in the map, with a covariance. Nothing where that is not clear. Allocates.
   [[nodiscard]] std::optional<Motion> find_motion(const MapState& map, const Pose2& T_world_robot) const;
-  /// How often the robot's pose was made to fit.
-  [[nodiscard]] int recoveries() const { return recoveries_; }
 
   /// Whether the gated observation at `index` of the last review proves that its landmark is not where the
   /// map has it.
@@ -79,6 +77,9 @@ class FaultIsolation {
   /// Whether that happened to a landmark that had begun anew before: it exists twice, or moves. It is to be
   /// dropped.
   [[nodiscard]] bool is_distrusted(LandmarkId id) const;
+
+  /// What was found out so far, in numbers.
+  [[nodiscard]] FilterHealth health() const;
 
   /// Landmarks that began anew because the only observation before was false.
   [[nodiscard]] int false_firsts() const { return false_firsts_; }

@@ -4,6 +4,9 @@
 #include <optional>
 #include <span>
 
+#include <Eigen/Core>
+
+#include "waymark/core/filter_health.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
 #include "waymark/core/observation.hpp"
@@ -42,6 +45,9 @@ struct Innovation {
   /// Where a filter that is lost then widens what it expects, `nis` is of the wider expectation, but not
   /// this.
   double log_density = 0.0;
+  /// Its components in their standard deviations by S, at the same moment: white in time for each landmark if
+  /// all is well. 0 where nothing was compared, and behind the first component of one-dimensional ones.
+  Eigen::Vector2d standardised = Eigen::Vector2d::Zero();
 };
 
 /// Result of correct(). A view into the filter, valid until its next call.
@@ -73,6 +79,9 @@ class Filter {
 
   /// Why it gave up, if it has: what it is given has nothing to do with the map that it started from.
   [[nodiscard]] virtual std::optional<Error> refusal() const { return std::nullopt; }
+
+  /// What it knows to be wrong. O(1).
+  [[nodiscard]] virtual FilterHealth health() const { return {}; }
 
   /// The map with marginal covariances; allocates. The stamp is the caller's to fill in.
   [[nodiscard]] virtual Snapshot snapshot() const = 0;

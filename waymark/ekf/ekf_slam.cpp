@@ -24,6 +24,12 @@ double log_density(const ekf::LinearizedObservation& linearization, double nis, 
   return linearization.rows == 2 ? log_gaussian<2>(nis, S) : log_gaussian<1>(nis, S.topLeftCorner<1, 1>());
 }
 
+Eigen::Vector2d standardised(const ekf::LinearizedObservation& linearization, const Eigen::Matrix2d& S) {
+  Eigen::Vector2d components = linearization.nu.cwiseQuotient(S.diagonal().cwiseSqrt());
+  if (linearization.rows == 1) components[1] = 0.0;
+  return components;
+}
+
 }  // namespace
 
 EkfSlam::Unknown::Unknown(const UnknownAssociation& association, const GateOptions& gate,
@@ -164,7 +170,10 @@ void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedOb
   const Eigen::Matrix2d S = state().innovation_covariance(*linearization);
   const auto nis = mahalanobis_squared<2>(linearization->nu, S);
   if (!nis) return;
-  if (innovation.dof == 0) innovation.log_density = log_density(*linearization, *nis, S);
+  if (innovation.dof == 0) {
+    innovation.log_density = log_density(*linearization, *nis, S);
+    innovation.standardised = standardised(*linearization, S);
+  }
   innovation.dof = linearization->rows;
   innovation.nis = *nis;
   innovation.gate = gate_.threshold(linearization->rows);

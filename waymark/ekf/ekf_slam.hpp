@@ -60,6 +60,7 @@ class EkfSlam final : public Filter {
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
   [[nodiscard]] PoseEstimate pose() const override { return state().active().pose(); }
+  [[nodiscard]] FilterHealth health() const override { return faults_.health(); }
   [[nodiscard]] Snapshot snapshot() const override { return map_.snapshot(); }
   [[nodiscard]] MapState save() const override { return map_.save(); }
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }

@@ -140,6 +140,13 @@ std::string Localizer::reason(const PoseCandidates& found) const {
                 " are arranged as in the map; the map is of another place");
 }
 
+FilterHealth Localizer::health() const {
+  FilterHealth health = ekf_.health();
+  health.recoveries += losses_;
+  health.lost = !located_;
+  return health;
+}
+
 const Correction& Localizer::localize_at(const PoseCandidate& found) {
   located_ = true;
   ekf_.place_robot({found.T_world_robot, kAsGoodAsUnknown.cwiseAbs2().asDiagonal()});

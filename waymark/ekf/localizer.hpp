@@ -34,6 +34,7 @@ class Localizer final : public Filter {
   [[nodiscard]] PoseEstimate pose() const override { return ekf_.pose(); }
   [[nodiscard]] bool knows_pose() const override { return located_; }
   [[nodiscard]] std::optional<Error> refusal() const override { return refusal_; }
+  [[nodiscard]] FilterHealth health() const override;
   [[nodiscard]] Snapshot snapshot() const override { return ekf_.snapshot(); }
   [[nodiscard]] MapState save() const override { return ekf_.save(); }
   [[nodiscard]] const FunctionBlocks& blocks() const override { return ekf_.blocks(); }

@@ -55,6 +55,7 @@ class FastSlam final : public Filter {
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
   [[nodiscard]] PoseEstimate pose() const override { return belief_.pose(); }
+  [[nodiscard]] FilterHealth health() const override { return faults_.health(); }
   [[nodiscard]] Snapshot snapshot() const override;
   [[nodiscard]] MapState save() const override;
   [[nodiscard]] const FunctionBlocks& blocks() const override { return blocks_; }

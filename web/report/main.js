@@ -8,6 +8,7 @@ import { comparison, pageHeader, runSummary, tiles } from "./summary.js";
 import { blockTable, metricsTables, notesPanel, reproduce, smoothedPanel } from "./tables.js";
 import { runColor } from "./theme.js";
 import { Timeline } from "./timeline.js";
+import { verdictPanel } from "./verdict.js";
 
 const filled = (series) => (series?.t?.length ?? 0) > 0;
 
@@ -73,8 +74,8 @@ class Report {
     const run = this.data.runs[index];
     if (!run) return;
     document.documentElement.style.setProperty("--accent", `var(--${runColor(index)})`);
-    this.top.replaceChildren(...[runSummary(this.data, run), tiles(run), run.notes?.length ? notesPanel(run.notes) : null]
-      .filter(Boolean));
+    this.top.replaceChildren(...[run.metrics?.verdict ? verdictPanel(run.metrics.verdict) : null, runSummary(this.data, run), tiles(run),
+      run.notes?.length ? notesPanel(run.notes) : null].filter(Boolean));
     const details = this.details(run, index).filter(Boolean);
     if (details.length === 0 && !this.map) details.push(h("p", { class: "note" }, "This run has nothing to show."));
     this.bottom.replaceChildren(...details);

@@ -31,7 +31,9 @@ export function tile(label, [value, unit], note, { state, title } = {}) {
     h("dd", { class: "note" }, note || "\u00a0"));
 }
 
-function consistency(nis) {
+// Where the truth is known it outranks the innovations.
+function consistency(nis, nees) {
+  if (nees > 6) return { note: `overconfident: NEES ${format.number(nees)}, ideal 3`, state: "warn", title: "Errors are larger than the filter expects" };
   if (nis > 1.5) return { note: "overconfident, ideal 1", state: "warn", title: "Innovations are larger than the filter expects" };
   if (nis < 0.6) return { note: "cautious, ideal 1", state: "warn", title: "Innovations are smaller than the filter expects" };
   return { note: "consistent, ideal 1", state: "good" };
@@ -70,7 +72,7 @@ export function tiles(run) {
       && `${format.times(truth.odometry_position_rmse_m / truth.position_rmse_m)} the RMSE of the estimate`));
   }
   if (has(m.nis_per_dof)) {
-    const { note, ...look } = consistency(m.nis_per_dof);
+    const { note, ...look } = consistency(m.nis_per_dof, truth.nees_mean);
     list.push(tile("NIS per dof", [format.number(m.nis_per_dof)], note, look));
   }
   if (has(step.p50)) {

@@ -32,7 +32,7 @@ export function blockTable(blocks) {
         h("td", {}))))));
 }
 
-const SHOWN_ELSEWHERE = new Set(["blocks", "smoothed"]);
+const SHOWN_ELSEWHERE = new Set(["blocks", "smoothed", "verdict"]);
 const isTable = (value) => Array.isArray(value) && value.length > 0 && value.every(isGroup);
 const isGroup = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
 

@@ -152,6 +152,7 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.observe = setting(config, "observe");
   metrics.associate = setting(config, "associate");
   metrics.seed = config.seed;
+  metrics.verdict = judge(gather_evidence(recording), truth ? truth->nees.mean : std::nullopt);
   if (!recording.trajectory.empty())
     metrics.duration_s = to_seconds(recording.trajectory.back().stamp - recording.trajectory.front().stamp);
   metrics.events = recording.counts.events;
@@ -177,6 +178,7 @@ std::string to_json(const Metrics& m) {
             {"observe", m.observe},
             {"associate", m.associate},
             {"seed", m.seed},
+            {"verdict", {{"level", name_of(m.verdict.level)}, {"reasons", m.verdict.reasons}}},
             {"duration_s", rounded(m.duration_s)},
             {"events", m.events},
             {"observations", m.observations},
@@ -268,10 +270,16 @@ static std::string to_text(const SmoothedFigures& s) {
   return text + to_text(s.calibration);
 }
 
+static std::string to_text(const Verdict& verdict) {
+  std::string text = fmt::format("verdict: {}\n", name_of(verdict.level));
+  for (const std::string& reason : verdict.reasons) text += fmt::format("  {}\n", reason);
+  return text;
+}
+
 std::string to_text(const Metrics& m) {
-  std::string text =
-      fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
-                  m.filter, m.duration_s, m.wall_s, m.realtime_factor, m.observations, m.landmarks);
+  std::string text = to_text(m.verdict);
+  text += fmt::format("{}: {:.0f} s of log in {:.2f} s ({:.0f}x real time), {} observations, {} landmarks\n",
+                      m.filter, m.duration_s, m.wall_s, m.realtime_factor, m.observations, m.landmarks);
   if (m.truth) text += to_text(*m.truth);
   text += line("NIS per dof (ideal 1)", m.nis_per_dof, "");
   text += line("step, median", m.steps.p50_us, "us", fmt::format("   (99 %: {:.1f} us)", m.steps.p99_us));

@@ -10,6 +10,7 @@
 #include "workbench/run/recording.hpp"
 #include "workbench/run/recording_figures.hpp"
 #include "workbench/run/smoother.hpp"
+#include "workbench/run/verdict.hpp"
 
 namespace waymark {
 
@@ -32,6 +33,7 @@ struct Metrics {
   std::string observe;
   std::string associate;
   std::uint64_t seed = 0;
+  Verdict verdict;
   double duration_s = 0.0;
   std::int64_t events = 0;
   std::int64_t observations = 0;

@@ -55,7 +55,6 @@ std::vector<std::string> describe_unobservable(const Config& config) {
 
 /// Keeps what smoothing needs. Where pixels were looked for, innovations are not of given observations.
 void keep_for_smoothing(Recording& recording, const Step& step) {
-  recording.motions.push_back(step.motion);
   if (step.correction == nullptr || step.correction->innovations.size() != step.observations.size()) return;
   for (std::size_t i = 0; i < step.observations.size(); ++i) {
     const Innovation& innovation = step.correction->innovations[i];
@@ -68,6 +67,7 @@ void keep_for_smoothing(Recording& recording, const Step& step) {
 void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
   recording.trajectory.push_back({step.stamp, step.pose.T_world_robot, step.pose.covariance});
   recording.dead_reckoning.push_back({step.stamp, step.dead_reckoning, std::nullopt});
+  recording.motions.push_back(step.motion);
   if (step.correction == nullptr) return;
   if (step.image != nullptr && front_end != nullptr)
     recording.image_strip.add(step.stamp, *step.image, front_end->search_records(),

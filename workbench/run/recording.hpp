@@ -42,8 +42,8 @@ struct Recording {
   std::vector<std::pair<Stamp, Truth>> truth;
   std::vector<TimedInnovation> innovations;
   std::vector<TimedCost> steps;
-  std::vector<Motion> motions;  ///< to each point of the trajectory; kept where smooth.run is set,
-  std::vector<ObservationRecord> observations;  ///< as are these
+  std::vector<Motion> motions;                  ///< of the odometry, to each point of the trajectory
+  std::vector<ObservationRecord> observations;  ///< kept where smooth.run is set
   std::vector<FunctionBlocks::Row> blocks;      ///< of the filter, and of what looks into images for it
   ImageStrip image_strip;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one

@@ -26,6 +26,7 @@
 #include "workshop/figures/observe.hpp"
 #include "workshop/figures/over_runs.hpp"
 #include "workshop/figures/room.hpp"
+#include "workshop/figures/verdicts.hpp"
 
 namespace waymark {
 namespace {
@@ -247,6 +248,7 @@ int main(int argc, char** argv) {
   waymark::add_markers(app, status);
   waymark::add_observe(app);
   waymark::add_room(app, status);
+  waymark::add_verdicts(app);
   CLI11_PARSE(app, argc, argv);
   return status;
 }
