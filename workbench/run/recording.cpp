@@ -224,7 +224,7 @@ Result<Recording> record(Source& source, const Config& config, const TimeSpan& s
   recording.error = read_all(source, span, keep_going, [&](Event event) {
     sample.add(event, config.sensor);
     sensors_known = check_sensor_of(event, config);
-    return sensors_known ? route(std::move(event), config, recording, pipeline) : sensors_known;
+    return sensors_known ? route(std::move(event), recording, pipeline) : sensors_known;
   });
   pipeline.finish();
   recording.odometry = pipeline.odometry();
