@@ -1,5 +1,7 @@
 #include "waymark/association/fault_isolation.hpp"
 
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -74,6 +76,48 @@ TEST_F(FaultIsolationTest, AgreementIsByOdometry) {
   EXPECT_TRUE(faults_.is_landmark_wrong(0));
 }
 
+TEST_F(FaultIsolationTest, FiveOfOneLandmarkAloneMayBeASlip) {
+  add(1);
+  const auto slips = [&](double expected_sigma_m) {
+    observations_ = {seen(1, 3.0)};
+    innovations_ = {{.landmark = marker(1), .outcome = Outcome::kGated, .dof = 2, .nis = 40.0}};
+    innovations_[0].log_density =
+        log_gaussian<2>(40.0, Eigen::Matrix2d(Eigen::Vector2d(1.0, 1.0 / 9.0).asDiagonal()) *
+                                  (expected_sigma_m * expected_sigma_m));
+    table_.begin_scan();
+    faults_.review(observations_, innovations_, table_);
+    return faults_.wants_relocation();
+  };
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(slips(0.05));
+  EXPECT_TRUE(slips(0.05));
+  int inflations = 0;
+  faults_.relocate({}, {}, innovations_, [&](const Motion& motion) {
+    EXPECT_EQ(motion.increment, Pose2{});
+    ++inflations;
+  });
+  EXPECT_EQ(inflations, 4);
+  EXPECT_FALSE(slips(0.05));
+  accepted(1);
+  // Where it is expected anywhere within half a metre, a slip explains nothing.
+  for (int i = 0; i < 6; ++i) EXPECT_FALSE(slips(0.5));
+}
+
+TEST_F(FaultIsolationTest, WhatPassesAWideGateAfterManyThatDidNotIsGated) {
+  add(1);
+  const auto outcome = [&](double nis) {
+    observations_ = {seen(1, 3.0)};
+    innovations_ = {{.landmark = marker(1), .outcome = Outcome::kMatched, .dof = 2, .nis = nis}};
+    faults_.review(observations_, innovations_, table_);
+    return innovations_[0].outcome;
+  };
+  for (int i = 0; i < 4; ++i) gated(1, 3.0);
+  EXPECT_EQ(outcome(20.0), Outcome::kMatched);
+  for (int i = 0; i < 5; ++i) gated(1, 3.0);
+  EXPECT_EQ(outcome(20.0), Outcome::kGated);
+  EXPECT_EQ(outcome(9.0), Outcome::kMatched);  // chi-square: 99 % below 9.2
+  EXPECT_EQ(outcome(20.0), Outcome::kMatched);
+}
+
 TEST_F(FaultIsolationTest, AnAcceptedObservationEndsAContradiction) {
   add(1, 1);
   gated(1, 3.0);
@@ -82,11 +126,17 @@ TEST_F(FaultIsolationTest, AnAcceptedObservationEndsAContradiction) {
   EXPECT_FALSE(faults_.is_landmark_wrong(0));
 }
 
+/// Farther than the errors of observations last.
+const Motion kOnTheSpot{{0.0, 0.0, 2.0 * kPi}, Eigen::Matrix3d::Identity() * 1e-9, 1.0};
+
 TEST_F(FaultIsolationTest, OneLandmarkAgainstOthersWasCarried) {
   add(1);
   add(2);
+  add(3);
   gated(1, 3.0);
+  faults_.predict(kOnTheSpot);
   for (int i = 0; i < 3; ++i) accepted(2);
+  accepted(3);
   gated(1, 3.0);
   EXPECT_FALSE(faults_.is_landmark_wrong(0));
   gated(1, 3.0);
@@ -95,6 +145,29 @@ TEST_F(FaultIsolationTest, OneLandmarkAgainstOthersWasCarried) {
   ASSERT_EQ(faults_.carried().size(), 1U);
   EXPECT_EQ(faults_.carried()[0], marker(1));
   EXPECT_FALSE(faults_.is_distrusted(marker(1)));
+}
+
+TEST_F(FaultIsolationTest, OneLandmarkAgainstOneOtherMayBeEither) {
+  add(1);
+  add(2);
+  for (int i = 0; i < 9; ++i) {
+    gated(1, 3.0);
+    EXPECT_FALSE(faults_.is_landmark_wrong(0));
+    accepted(2);
+  }
+}
+
+TEST_F(FaultIsolationTest, MoreThatContradictThanSupportMeanThatTheRobotIsLost) {
+  add(1);
+  add(2);
+  add(3);
+  for (int i = 0; i < 4; ++i) {
+    accepted(3);  // by which it closed a loop, and which had been carried
+    scan({{seen(1, 3.0), Outcome::kGated}, {seen(2, 3.0, 1.0), Outcome::kGated}});
+    EXPECT_FALSE(faults_.is_landmark_wrong(0));
+    EXPECT_FALSE(faults_.is_landmark_wrong(1));
+  }
+  EXPECT_TRUE(faults_.is_robot_lost());
 }
 
 TEST_F(FaultIsolationTest, OneLandmarkAloneIsNobodysFault) {
@@ -109,9 +182,12 @@ TEST_F(FaultIsolationTest, OneLandmarkAloneIsNobodysFault) {
 TEST_F(FaultIsolationTest, ALandmarkThatIsFoundElsewhereAgainIsDistrusted) {
   add(1);
   add(2);
+  add(3);
   for (const double range_m : {3.0, 2.0}) {
     gated(1, range_m);
+    faults_.predict(kOnTheSpot);
     for (int i = 0; i < 3; ++i) accepted(2);
+    accepted(3);
     gated(1, range_m);
     gated(1, range_m);
     EXPECT_TRUE(faults_.is_landmark_wrong(0));
@@ -148,9 +224,17 @@ TEST_F(FaultIsolationTest, AnAcceptedObservationBetweenThemMeansThatItIsNot) {
   add(1);
   add(2);
   add(3);
-  for (int i = 0; i < 3; ++i) gated(1, 3.0);
-  accepted(3);
-  for (int i = 0; i < 3; ++i) gated(2, 3.0, 1.0);
+  add(4);
+  for (int i = 0; i < 3; ++i) {
+    gated(1, 3.0);
+    accepted(3);
+    accepted(4);
+  }
+  for (int i = 0; i < 3; ++i) {
+    gated(2, 3.0, 1.0);
+    accepted(3);
+    accepted(4);
+  }
   EXPECT_FALSE(faults_.is_robot_lost());
 }
 
@@ -165,7 +249,8 @@ TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMa
   for (int number = 1; number <= 3; ++number) add(number);
   for (int i = 0; i < 2; ++i)
     for (int number = 1; number <= 3; ++number) {
-      const Eigen::Vector2d p = T_world_robot.inverse() * Eigen::Vector2d(map.landmarks.segment<2>(2 * number - 2));
+      const Eigen::Vector2d p =
+          T_world_robot.inverse() * Eigen::Vector2d(map.landmarks.segment<2>(2 * number - 2));
       gated(number, p.norm(), std::atan2(p.y(), p.x()));
     }
   ASSERT_TRUE(faults_.is_robot_lost());
@@ -179,64 +264,17 @@ TEST_F(FaultIsolationTest, FindsTheMotionToWhereTheLandmarksAreArrangedAsInTheMa
   // Places that are unsure by 1 cm each give a pose of about a centimetre, told as three times that.
   EXPECT_GT(motion->covariance(0, 0), 1e-5);
   EXPECT_LT(motion->covariance(0, 0), 9e-3);
-  faults_.relocated();
+
+  MapState other = map;
+  other.landmarks[0] = 9.0;
+  other.landmarks[3] = 9.0;
+  EXPECT_FALSE(faults_.find_motion(other, believed));
+
+  int moved = 0;
+  faults_.relocate(map, believed, innovations_, [&](const Motion&) { ++moved; });
+  EXPECT_EQ(moved, 1);
+  EXPECT_EQ(faults_.recoveries(), 1);
   EXPECT_FALSE(faults_.is_robot_lost());
-
-  map.landmarks[0] = 9.0;
-  map.landmarks[3] = 9.0;
-  EXPECT_FALSE(faults_.find_motion(map, believed));
-}
-
-/// Of what was expected with this covariance.
-Innovation accepted_of(int number, double variance) {
-  Innovation innovation{.landmark = marker(number), .outcome = Outcome::kMatched, .dof = 2};
-  innovation.log_density = log_gaussian<2>(0.0, Eigen::Matrix2d::Identity() * variance);
-  return innovation;
-}
-
-TEST_F(FaultIsolationTest, WhatIsExpectedVaguelyWaitsForAnotherAsFarAwayAsInTheMap) {
-  add(1);
-  add(2);
-  const auto apart = [](int, int) {
-    return FaultIsolation::Apart{{0.0, 1.0}, Eigen::Matrix2d::Identity() * 1e-6};
-  };
-  std::vector<Observation> observations{seen(1, 3.0)};
-  std::vector<Innovation> innovations{accepted_of(1, 0.04)};
-  faults_.corroborate(observations, innovations, table_, apart);
-  EXPECT_EQ(innovations[0].outcome, Outcome::kUncorroborated);
-
-  observations = {seen(2, 3.0, 1.0)};  // 2.9 m away from the first, not 1 m
-  innovations = {accepted_of(2, 0.04)};
-  faults_.corroborate(observations, innovations, table_, apart);
-  EXPECT_EQ(innovations[0].outcome, Outcome::kUncorroborated);
-
-  observations = {seen(2, 3.0, 0.335)};  // 1 m away
-  innovations = {accepted_of(2, 0.04)};
-  faults_.corroborate(observations, innovations, table_, apart);
-  EXPECT_EQ(innovations[0].outcome, Outcome::kMatched);
-}
-
-TEST_F(FaultIsolationTest, WhatIsExpectedAtAPlaceDoesNotWait) {
-  add(1);
-  add(2);
-  const auto apart = [](int, int) { return FaultIsolation::Apart{}; };
-  std::vector<Observation> observations{seen(1, 3.0), seen(2, 3.0, 1.0)};
-  std::vector<Innovation> innovations{accepted_of(1, 2e-4), accepted_of(2, 0.04)};
-  faults_.corroborate(observations, innovations, table_, apart);
-  EXPECT_EQ(innovations[0].outcome, Outcome::kMatched);
-  EXPECT_EQ(innovations[1].outcome, Outcome::kMatched);  // the first ties the robot to the map
-}
-
-TEST_F(FaultIsolationTest, WhatIsSeenAloneForLongIsUsed) {
-  add(1);
-  const auto apart = [](int, int) { return FaultIsolation::Apart{}; };
-  const std::vector<Observation> observations{seen(1, 3.0)};
-  for (int i = 0; i < 4; ++i) {
-    std::vector<Innovation> innovations{accepted_of(1, 0.04)};
-    faults_.corroborate(observations, innovations, table_, apart);
-    EXPECT_EQ(innovations[0].outcome, i < 3 ? Outcome::kUncorroborated : Outcome::kMatched) << i;
-    faults_.predict({{0.9, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-6, 0.1});
-  }
 }
 
 }  // namespace

@@ -14,43 +14,21 @@ std::vector<Innovation> scan_of(std::initializer_list<Outcome> outcomes) {
   return scan;
 }
 
-const std::vector<Innovation> kGatedOnce = scan_of({Outcome::kGated});
+const Innovation kGated{.outcome = Outcome::kGated};
 
-TEST(Recovery, FiveGatedInARowMeanALostRobot) {
-  Recovery recovery;
-  for (int scan = 0; scan < 4; ++scan) EXPECT_FALSE(recovery.is_lost(kGatedOnce));
-  EXPECT_TRUE(recovery.is_lost(kGatedOnce));
-}
-
-TEST(Recovery, AnAcceptedOneBetweenThemMeansThatTheyAreWrong) {
-  Recovery recovery;
-  for (int scan = 0; scan < 4; ++scan) EXPECT_FALSE(recovery.is_lost(kGatedOnce));
-  EXPECT_FALSE(recovery.is_lost(scan_of({Outcome::kMatched, Outcome::kGated})));
-  EXPECT_FALSE(recovery.is_lost(kGatedOnce));
-}
-
-TEST(Recovery, WhatWasNotGatedSaysNothing) {
-  Recovery recovery;
-  for (int scan = 0; scan < 4; ++scan)
-    EXPECT_FALSE(recovery.is_lost(scan_of({Outcome::kGated, Outcome::kAdded, Outcome::kUnusable})));
-  EXPECT_TRUE(recovery.is_lost(kGatedOnce));
-}
-
-TEST(Recovery, AScanThatIsHalfAcceptedIsNotOfALostRobot) {
-  Recovery recovery;
+TEST(Recovery, AScanThatIsHalfAcceptedIsNotMostlyGated) {
   std::vector<Innovation> half(12, {.outcome = Outcome::kMatched});
   for (std::size_t i = 6; i < half.size(); ++i) half[i].outcome = Outcome::kGated;
-  EXPECT_FALSE(recovery.is_lost(half));
+  EXPECT_FALSE(is_mostly_gated(half));
   half.front().outcome = Outcome::kGated;
-  EXPECT_TRUE(recovery.is_lost(half));
+  EXPECT_TRUE(is_mostly_gated(half));
+  EXPECT_TRUE(is_mostly_gated(scan_of({Outcome::kGated, Outcome::kAdded, Outcome::kUnusable})));
 }
 
 TEST(Recovery, InflatesUntilHalfOfTheScanIsBelieved) {
-  Recovery recovery;
-  std::vector<Innovation> scan(5, kGatedOnce.front());
-  ASSERT_TRUE(recovery.is_lost(scan));
+  std::vector<Innovation> scan(5, kGated);
   std::vector<double> sigmas;
-  recovery.recover(scan, [&](const Motion& added_motion) {
+  inflate_until_accepted(scan, [&](const Motion& added_motion) {
     EXPECT_TRUE(added_motion.covariance.isDiagonal());
     EXPECT_EQ(added_motion.increment, Pose2{});
     sigmas.push_back(std::sqrt(added_motion.covariance(0, 0)));
@@ -60,24 +38,15 @@ TEST(Recovery, InflatesUntilHalfOfTheScanIsBelieved) {
   EXPECT_DOUBLE_EQ(sigmas[0], 0.02);
   EXPECT_DOUBLE_EQ(sigmas[1], 0.04);
   EXPECT_DOUBLE_EQ(sigmas[2], 0.08);
-  EXPECT_EQ(recovery.recoveries(), 1);
 }
 
 TEST(Recovery, InflationIsBounded) {
-  Recovery recovery;
-  const std::vector<Innovation> scan(5, kGatedOnce.front());
+  const std::vector<Innovation> scan(5, kGated);
   double variance = 0.0;
-  recovery.recover(scan, [&](const Motion& added_motion) { variance += added_motion.covariance(2, 2); });
+  inflate_until_accepted(scan,
+                         [&](const Motion& added_motion) { variance += added_motion.covariance(2, 2); });
   EXPECT_GT(std::sqrt(variance), 2.0);
   EXPECT_LT(std::sqrt(variance), 4.0);
-}
-
-TEST(Recovery, CountsAnewAfterARecovery) {
-  Recovery recovery;
-  const std::vector<Innovation> scan(5, kGatedOnce.front());
-  ASSERT_TRUE(recovery.is_lost(scan));
-  recovery.recover(scan, [](const Motion&) {});
-  for (int i = 0; i < 4; ++i) EXPECT_FALSE(recovery.is_lost(kGatedOnce));
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 namespace waymark {
 namespace {
 
-constexpr Outcome kOutcomes[] = {Outcome::kMatched,      Outcome::kAdded,      Outcome::kGated,
-                                 Outcome::kUnidentified, Outcome::kUnusable,   Outcome::kAmbiguous,
-                                 Outcome::kDuplicate,    Outcome::kDeferred,   Outcome::kMapFull,
-                                 Outcome::kNotInMap,     Outcome::kDistrusted, Outcome::kUncorroborated};
+constexpr Outcome kOutcomes[] = {Outcome::kMatched,      Outcome::kAdded,     Outcome::kGated,
+                                 Outcome::kUnidentified, Outcome::kUnusable,  Outcome::kAmbiguous,
+                                 Outcome::kDuplicate,    Outcome::kDeferred,  Outcome::kMapFull,
+                                 Outcome::kNotInMap,     Outcome::kDistrusted};
 
 TEST(Correction, CountsInnovationsByOutcome) {
   std::vector<Innovation> innovations;

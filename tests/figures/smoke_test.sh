@@ -168,6 +168,18 @@ test_initialise() {
   grep -q '</svg>' strips.svg || fail 'no drawing'
 }
 
+test_faults() {
+  prints --seeds 1
+  within 'of every landmark' 3 0.5 1.5
+  within '10 % of all observations' 3 0.5 1.5
+}
+
+test_carried() {
+  prints --seeds 1
+  within 'three known landmarks seen five times each with 10 s left: ' 1 1 1
+  within '  found back within 10 s: ' 1 1 1
+}
+
 # Every subcommand is tested: those of --help are those named.
 test_coverage() {
   "$figures" --help >out.txt

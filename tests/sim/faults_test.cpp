@@ -53,7 +53,8 @@ TEST(SimFaults, FirstObservationsOfAShareOfTheLandmarksAreFalse) {
   const Log clean = simulate({});
   std::map<LandmarkId, Stamp> first;
   for (const auto& [stamp, seen] : clean.observations) first.emplace(*seen.id, stamp);
-  for (const auto& [share, count] : {std::pair(0.001, 1.0), {0.5, std::round(0.5 * static_cast<double>(first.size()))},
+  for (const auto& [share, count] : {std::pair(0.001, 1.0),
+                                     {0.5, std::round(0.5 * static_cast<double>(first.size()))},
                                      {1.0, static_cast<double>(first.size())}}) {
     const auto differ = differing(simulate({.false_first_share = share}), clean);
     EXPECT_EQ(static_cast<double>(differ.size()), count) << share;

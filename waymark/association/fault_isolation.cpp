@@ -11,31 +11,25 @@ namespace waymark {
 namespace {
 
 // docs/fault-isolation.md, "How many observations".
-constexpr int kOutweighOne = 2;   // that agree with each other, against one
-constexpr int kOutweighMany = 3;  // against those of a landmark that was observed more than once
-constexpr int kOutweighOneUnplaced = 3;   // of ranges or bearings alone, of which any two agree
+constexpr int kOutweighOne = 2;          // that agree with each other, against one
+constexpr int kOutweighMany = 3;         // against those of a landmark that was observed more than once
+constexpr int kOutweighOneUnplaced = 3;  // of ranges or bearings alone, of which any two agree
 constexpr int kOutweighManyUnplaced = 6;
-constexpr int kSupport = 3;       // accepted observations of other landmarks meanwhile
+constexpr int kLong = 5;            // after so many that were gated
+constexpr double kLateGate = 0.99;  // one is accepted only if it fits as most do
+constexpr int kSupport = 3;         // accepted observations of other landmarks meanwhile
+constexpr int kSupporters = 2;      // other landmarks that they are of
+constexpr std::size_t kMaxSupporters = 16;
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
-// The expectation of a landmark is this many times as unsure as its observation (area of the ellipses): an
-// observation that is false by as much passes the gate.
-constexpr double kUnsureRatio = 10.0;
-constexpr double kLongWait_m = 2.0;
-constexpr double kGate1 = 10.83;  // 99.9 % of chi-square with one degree of freedom
-
-/// Whether the innovation covariance S of a range and bearing leaves more room than the observation needs.
-bool is_vague(const Innovation& innovation, const ObservedLandmark& seen) {
+constexpr int kSureObservations = 10;  // of two landmarks
+constexpr double kSlip_m = 0.18;       // sigma of what kSlipInflations add
+/// The product of the standard deviations of where a landmark was expected across and along the view, from
+/// the innovation covariance of range (m) and bearing (rad); 0 where it has no place.
+double expected_m2(const Innovation& innovation, const ObservedLandmark* seen) {
+  if (seen == nullptr || innovation.dof != 2) return 0.0;
   const double log_det_S = -2.0 * innovation.log_density - innovation.nis - 2.0 * kLogTwoPi;
-  const double det_R = seen.covariance.determinant() / seen.p_robot.squaredNorm();
-  return log_det_S > std::log(det_R) + 2.0 * std::log(kUnsureRatio);
-}
-
-bool is_mostly_gated(std::span<const Innovation> innovations) {
-  const auto count = [&](Outcome outcome) {
-    return std::ranges::count(innovations, outcome, &Innovation::outcome);
-  };
-  return count(Outcome::kGated) > count(Outcome::kMatched);
+  return std::exp(0.5 * log_det_S) * seen->p_robot.norm();
 }
 
 /// Of the increment that takes the robot to where it sees these landmarks: the inverse of the information
@@ -60,63 +54,23 @@ Eigen::Matrix3d increment_covariance(const PoseCandidate& fit, std::span<const O
 
 }  // namespace
 
-FaultIsolation::FaultIsolation(const LandmarkSensor& sensor) : doubted_(sensor), waiting_(sensor) {
+FaultIsolation::FaultIsolation(const LandmarkSensor& sensor)
+    : independent_m_(sensor.errors.bias_distance_m), late_gate_({kLateGate}), doubted_(sensor) {
   contradictions_.reserve(LocalMap::kCapacity);
-  waiting_since_m_.reserve(LocalMap::kCapacity);
+  supporters_.reserve(kMaxSupporters);
 }
 
 void FaultIsolation::predict(const Motion& motion) {
   doubted_.predict(motion);
-  waiting_.predict(motion);
   travelled_m_ += travelled_m(motion);
 }
 
-/// Remembers what has to wait. Nothing has while one observation ties the robot to its map.
-bool FaultIsolation::wait(std::span<const Observation> observations,
-                          std::span<const Innovation> innovations) {
-  bool is_tied = false;
-  bool any = false;
-  for (std::size_t i = 0; i < innovations.size(); ++i) {
-    if (innovations[i].outcome != Outcome::kMatched || !observations[i].id) continue;
-    const auto seen = waiting_.locate(observations[i]);
-    if (!seen || !is_vague(innovations[i], *seen)) {
-      is_tied = true;
-    } else {
-      any = true;
-      waiting_.observe(observations[i]);
-      if (waiting_since_m_.size() < waiting_.landmarks().size()) waiting_since_m_.push_back(travelled_m_);
-    }
-  }
-  if (!is_tied) return any;
-  waiting_.clear();
-  waiting_since_m_.clear();
-  return false;
-}
-
-bool FaultIsolation::is_waiting(const Innovation& innovation) const {
-  return innovation.outcome == Outcome::kMatched && waiting_.find(innovation.landmark) != nullptr;
-}
-
-bool FaultIsolation::has_waited_long(LandmarkId id) const {
-  const auto index = static_cast<std::size_t>(waiting_.find(id) - waiting_.landmarks().data());
-  return travelled_m_ - waiting_since_m_[index] > kLongWait_m;
-}
-
-bool FaultIsolation::are_as_far_apart(LandmarkId first, LandmarkId second, const Apart& apart) const {
-  const ObservedLandmark* const a = waiting_.find(first);
-  const ObservedLandmark* const b = waiting_.find(second);
-  const Eigen::Vector2d seen = b->p_robot - a->p_robot;
-  const auto along = [](const Eigen::Vector2d& line, const Eigen::Matrix2d& P) {
-    return line.dot(P * line) / std::max(line.squaredNorm(), 1e-12);
-  };
-  const double nu = seen.norm() - apart.mean.norm();
-  return nu * nu <=
-         kGate1 * (along(seen, a->covariance + b->covariance) + along(apart.mean, apart.covariance));
-}
-
-void FaultIsolation::review(std::span<const Observation> observations,
-                            std::span<const Innovation> innovations, const LandmarkTable& table) {
+void FaultIsolation::review(std::span<const Observation> observations, std::span<Innovation> innovations,
+                            const LandmarkTable& table) {
+  ++reviews_;
   wrong_.assign(innovations.size(), 0);
+  for (Innovation& innovation : innovations)
+    if (is_accepted_too_late(innovation)) innovation.outcome = Outcome::kGated;
   for (std::size_t i = 0; i < innovations.size(); ++i) {
     if (!observations[i].id || innovations[i].outcome != Outcome::kMatched) continue;
     const auto landmark = table.find(innovations[i].landmark);
@@ -127,11 +81,22 @@ void FaultIsolation::review(std::span<const Observation> observations,
     const auto landmark = table.find(innovations[i].landmark);
     if (!landmark) continue;
     Contradiction& contradiction = contradict(innovations[i].landmark, observations[i]);
+    contradiction.reviewed_at = reviews_;
+    contradiction.expected_m2 = expected_m2(innovations[i], doubted_.find(innovations[i].landmark));
     contradiction.once = table[*landmark].observations == 1;
     wrong_[i] = is_outweighed(contradiction);
     if (wrong_[i]) blame(contradiction);
   }
   lost_ = judge_robot(innovations);
+  slipped_ = !lost_ && judge_slip(innovations);
+}
+
+/// The gate widens as the robot drives on without a fix, until it lets pass what it refused all the time.
+bool FaultIsolation::is_accepted_too_late(const Innovation& innovation) const {
+  if (innovation.outcome != Outcome::kMatched || contradictions_.empty()) return false;
+  const auto at = std::ranges::find(contradictions_, innovation.landmark, &Contradiction::id);
+  return at != contradictions_.end() && at->observations >= kLong &&
+         innovation.nis > late_gate_.threshold(innovation.dof);
 }
 
 /// The landmark begins anew; one that was found wrong before is where it is only now and then.
@@ -154,8 +119,25 @@ void FaultIsolation::forget(LandmarkId id) {
 
 /// An accepted observation ends the contradiction of its landmark: the gated ones before were outliers.
 void FaultIsolation::support(LandmarkId id, bool is_connected) {
-  if (is_connected) ++support_;
   forget(id);
+  if (!is_connected) return;
+  ++support_;
+  std::erase_if(supporters_, [id](const Supporter& each) { return each.id == id; });
+  if (supporters_.size() == kMaxSupporters) supporters_.erase(supporters_.begin());
+  supporters_.push_back({id, support_});
+}
+
+/// How many landmarks have supported the pose since then.
+int FaultIsolation::supporters_since(std::int64_t support) const {
+  return static_cast<int>(std::ranges::count_if(
+      supporters_, [support](const Supporter& each) { return each.supported_at > support; }));
+}
+
+/// How many other landmarks that the map is sure of contradict the pose, since or while this one does.
+int FaultIsolation::contradicting_others(const Contradiction& contradiction) const {
+  return static_cast<int>(std::ranges::count_if(contradictions_, [&](const Contradiction& each) {
+    return each.id != contradiction.id && !each.once && each.observations >= kOutweighOne;
+  }));
 }
 
 FaultIsolation::Contradiction& FaultIsolation::contradict(LandmarkId id, const Observation& observation) {
@@ -164,15 +146,18 @@ FaultIsolation::Contradiction& FaultIsolation::contradict(LandmarkId id, const O
   const bool agrees = !seen || !before || LocalMap::agree(*before, *seen);
   doubted_.observe(observation);
   const auto at = std::ranges::find(contradictions_, id, &Contradiction::id);
-  const Contradiction first{.id = id, .began_at_support = support_, .placed = seen.has_value()};
+  const Contradiction first{
+      .id = id, .began_at_support = support_, .began_at_m = travelled_m_, .placed = seen.has_value()};
   if (at == contradictions_.end()) {
     if (contradictions_.size() == LocalMap::kCapacity) contradictions_.erase(contradictions_.begin());
     return contradictions_.emplace_back(first);
   }
+  const int in_a_row = at->in_a_row + 1;
   if (agrees)
     ++at->observations;
   else
     *at = first;
+  at->in_a_row = in_a_row;
   return *at;
 }
 
@@ -180,12 +165,24 @@ bool FaultIsolation::is_outweighed(const Contradiction& contradiction) const {
   const int one = contradiction.placed ? kOutweighOne : kOutweighOneUnplaced;
   const int many = contradiction.placed ? kOutweighMany : kOutweighManyUnplaced;
   if (contradiction.once) return contradiction.observations >= one;
-  return contradiction.observations >= many && support_ - contradiction.began_at_support >= kSupport;
+  const int supporters = supporters_since(contradiction.began_at_support);
+  const bool independent = travelled_m_ - contradiction.began_at_m > independent_m_;
+  return independent && contradiction.observations >= many &&
+         support_ - contradiction.began_at_support >= kSupport && supporters >= kSupporters &&
+         supporters > contradicting_others(contradiction);
 }
 
-/// Nothing was accepted since it began.
+/// Fewer landmarks have supported the pose since it began than contradict it.
 bool FaultIsolation::speaks_of_the_robot(const Contradiction& contradiction) const {
-  return !contradiction.once && contradiction.began_at_support == support_;
+  return !contradiction.once && contradiction.observations >= kOutweighOne &&
+         supporters_since(contradiction.began_at_support) <= contradicting_others(contradiction);
+}
+
+/// By any landmark, against one that speaks of the robot.
+bool FaultIsolation::is_supported() const {
+  return std::ranges::any_of(contradictions_, [this](const Contradiction& each) {
+    return speaks_of_the_robot(each) && supporters_since(each.began_at_support) > 0;
+  });
 }
 
 bool FaultIsolation::judge_robot(std::span<const Innovation> innovations) {
@@ -201,12 +198,24 @@ bool FaultIsolation::judge_robot(std::span<const Innovation> innovations) {
   return lost && (lost_ || is_mostly_gated(innovations));
 }
 
+/// One landmark alone, which nothing contradicts nor supports, has just been gated often enough. That the
+/// robot slipped a little is likelier than that someone moved the landmark a little; but where it was
+/// expected anywhere within more than a slip, a slip explains nothing.
+bool FaultIsolation::judge_slip(std::span<const Innovation> innovations) const {
+  return is_mostly_gated(innovations) &&
+         std::ranges::any_of(contradictions_, [this](const Contradiction& each) {
+           return !each.once && each.in_a_row == kLostObservations && each.reviewed_at == reviews_ &&
+                  supporters_since(each.began_at_support) == 0 && each.expected_m2 < kSlip_m * kSlip_m;
+         });
+}
+
 bool FaultIsolation::is_distrusted(LandmarkId id) const {
   return !distrusted_.empty() && std::ranges::find(distrusted_, id) != distrusted_.end();
 }
 
 bool FaultIsolation::wants_relocation() {
-  if (!lost_ || contradicting_ < 2 * asked_at_) return false;
+  if (slipped_) return true;
+  if (!lost_ || contradicting_ < asked_at_ + std::max(kLostObservations, asked_at_ / 4)) return false;
   asked_at_ = contradicting_;
   return true;
 }
@@ -224,19 +233,26 @@ std::optional<Motion> FaultIsolation::find_motion(const MapState& map, const Pos
   const PoseCandidates found = find_pose(seen, map);
   const auto enough = std::max<std::ptrdiff_t>(kLostLandmarks, (2 * std::ssize(seen) + 2) / 3);
   if (found.best.agreeing < enough) return std::nullopt;
+  // Two are as far apart as in the map by chance now and then.
+  if (found.best.agreeing == kLostLandmarks && (is_supported() || contradicting_ < kSureObservations))
+    return std::nullopt;
   // Three sigmas: the next observations are used again, and those of one place have errors in common.
   return Motion{T_world_robot.inverse() * found.best.T_world_robot,
                 9.0 * increment_covariance(found.best, seen, map, T_world_robot), 0.0};
 }
 
-void FaultIsolation::relocated() {
+bool FaultIsolation::knows_places() const {
+  return std::ranges::any_of(contradictions_, &Contradiction::placed);
+}
+
+void FaultIsolation::begin_anew() {
+  ++recoveries_;
   lost_ = false;
   asked_at_ = 0;
   ++support_;
   doubted_.clear();
-  waiting_.clear();
-  waiting_since_m_.clear();
   contradictions_.clear();
+  supporters_.clear();
 }
 
 }  // namespace waymark

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "waymark/association/gate.hpp"
 #include "waymark/association/landmark_table.hpp"
 #include "waymark/association/local_map.hpp"
+#include "waymark/association/recovery.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/core/motion.hpp"
@@ -28,58 +30,47 @@ namespace waymark {
 /// Landmarks that are younger than a contradiction, and were observed since with none that is older, prove
 /// nothing either: a lost robot added them. docs/fault-isolation.md derives the counts.
 ///
-/// A landmark that was not seen for long is expected somewhere, not at a place: any observation of it passes
-/// the gate, a false one too, and would turn the map with it. So it waits until another one stands as far
-/// from it as in the map (corroborate()), or nothing else was seen for a while.
-///
 /// Memory is taken at construction but for the names of landmarks that are found wrong.
 class FaultIsolation {
  public:
-  /// From one landmark of a map to another: mean and covariance, world frame.
-  struct Apart {
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  };
-
   explicit FaultIsolation(const LandmarkSensor& sensor);
 
   /// The robot moves on. O(landmarks in doubt).
   void predict(const Motion& motion);
 
-  /// Sets to Outcome::kUncorroborated what was accepted, of landmarks of known identity, but has to wait.
-  /// `apart(a, b)` gives Apart of two landmarks of the table. After gating, before review().
-  template <class ApartOf>
-  void corroborate(std::span<const Observation> observations, std::span<Innovation> innovations,
-                   const LandmarkTable& table, const ApartOf& apart) {
-    if (!wait(observations, innovations)) return;
-    for (std::size_t i = 0; i < innovations.size(); ++i) {
-      if (!is_waiting(innovations[i])) continue;
-      bool corroborated = has_waited_long(innovations[i].landmark);
-      for (const ObservedLandmark& other : waiting_.landmarks()) {
-        const auto a = table.find(innovations[i].landmark);
-        const auto b = table.find(*other.id);
-        if (a && b && *a != *b)
-          corroborated |= are_as_far_apart(innovations[i].landmark, *other.id, apart(*a, *b));
-      }
-      if (!corroborated) innovations[i].outcome = Outcome::kUncorroborated;
-    }
-  }
-
-  /// Takes in what became of the observations of one scan, after gating and before the update. Once a scan,
-  /// before what else is asked.
-  void review(std::span<const Observation> observations, std::span<const Innovation> innovations,
+  /// Takes in what became of the observations of one scan, after gating and before the update; once a scan,
+  /// before what else is asked. What passes the gate after others of its landmark did not is gated here if it
+  /// is none of the likeliest 99 %.
+  void review(std::span<const Observation> observations, std::span<Innovation> innovations,
               const LandmarkTable& table);
 
-  /// Several landmarks contradict the robot's pose and none supports it.
+  /// More landmarks contradict the robot's pose than support it.
   [[nodiscard]] bool is_robot_lost() const { return lost_; }
   /// Whether it is time to look for the robot in its map: it is lost, and more is known than at the last
   /// time.
   [[nodiscard]] bool wants_relocation();
-  /// The motion that takes the robot from where it is believed to be to where the landmarks in doubt are
-  /// arranged as in the map, with a covariance. Nothing where that is not clear. Allocates.
+  /// Makes the robot's pose fit what contradicts it, by motions that `move(motion)` has the filter predict
+  /// before it gates again what was gated: the one that takes it to where the landmarks are arranged as in
+  /// the map, if that is clear; where observations have no place, growing ones without direction until the
+  /// scan is accepted (inflate_until_accepted()). `innovations` are those that `move` changes. Allocates.
+  template <class Move>
+  void relocate(const MapState& map, const Pose2& T_world_robot, std::span<const Innovation> innovations,
+                const Move& move) {
+    if (slipped_) return inflate_until_accepted(innovations, move, kSlipInflations);
+    const auto motion = find_motion(map, T_world_robot);
+    if (!motion && knows_places()) return;
+    if (motion)
+      move(*motion);
+    else
+      inflate_until_accepted(innovations, move);
+    begin_anew();
+  }
+
+  /// The motion that takes the robot from where it is believed to be to where the landmarks that contradict
+  /// that are arranged as in the map, with a covariance. Nothing where that is not clear. Allocates.
   [[nodiscard]] std::optional<Motion> find_motion(const MapState& map, const Pose2& T_world_robot) const;
-  /// The robot's pose was made to fit.
-  void relocated();
+  /// How often the robot's pose was made to fit.
+  [[nodiscard]] int recoveries() const { return recoveries_; }
 
   /// Whether the gated observation at `index` of the last review proves that its landmark is not where the
   /// map has it.
@@ -97,39 +88,57 @@ class FaultIsolation {
   [[nodiscard]] std::span<const LandmarkId> distrusted() const { return distrusted_; }
 
  private:
+  static constexpr int kSlipInflations = 4;
+
   /// Consecutive gated observations of one landmark that agree; the last of them is in the local map.
   struct Contradiction {
     LandmarkId id;
     int observations = 1;
+    int in_a_row = 1;                   ///< that were gated, whether they agree or not
     std::int64_t began_at_support = 0;  ///< value of support_ then
+    std::int64_t reviewed_at = 0;       ///< the last review that saw it
+    double expected_m2 = 0.0;           ///< ellipse in which the landmark was expected: product of its sigmas
+    double began_at_m = 0.0;            ///< distance travelled then
     bool once = false;                  ///< the landmark was observed once
     bool placed = false;                ///< they were seen at a place, so that agreeing means something
   };
 
-  [[nodiscard]] bool wait(std::span<const Observation> observations, std::span<const Innovation> innovations);
-  [[nodiscard]] bool is_waiting(const Innovation& innovation) const;
-  [[nodiscard]] bool has_waited_long(LandmarkId id) const;
-  [[nodiscard]] bool are_as_far_apart(LandmarkId first, LandmarkId second, const Apart& apart) const;
+  /// A landmark whose observations were accepted: the last of them, as a value of support_.
+  struct Supporter {
+    LandmarkId id;
+    std::int64_t supported_at = 0;
+  };
 
+  [[nodiscard]] bool is_accepted_too_late(const Innovation& innovation) const;
+  [[nodiscard]] bool is_supported() const;
+  [[nodiscard]] int supporters_since(std::int64_t support) const;
+  [[nodiscard]] int contradicting_others(const Contradiction& contradiction) const;
   Contradiction& contradict(LandmarkId id, const Observation& observation);
   void support(LandmarkId id, bool is_connected);
   void blame(const Contradiction& contradiction);
   void forget(LandmarkId id);
   [[nodiscard]] bool is_outweighed(const Contradiction& contradiction) const;
   [[nodiscard]] bool speaks_of_the_robot(const Contradiction& contradiction) const;
+  [[nodiscard]] bool judge_slip(std::span<const Innovation> innovations) const;
   [[nodiscard]] bool judge_robot(std::span<const Innovation> innovations);
   [[nodiscard]] std::vector<ObservedLandmark> contradicting() const;
+  [[nodiscard]] bool knows_places() const;
+  void begin_anew();
 
+  double independent_m_;  // way after which errors of observations are others
+  Gate late_gate_;
   LocalMap doubted_;
-  LocalMap waiting_;
-  std::vector<double> waiting_since_m_;  // by landmark of that
   double travelled_m_ = 0.0;
   std::vector<Contradiction> contradictions_;
-  std::vector<std::uint8_t> wrong_;  // by observation of the scan
-  std::int64_t support_ = 0;         // accepted observations of landmarks that are connected
+  std::vector<Supporter> supporters_;  // the latest kMaxSupporters
+  std::vector<std::uint8_t> wrong_;    // by observation of the scan
+  std::int64_t reviews_ = 0;
+  std::int64_t support_ = 0;  // accepted observations of landmarks that are connected
   bool lost_ = false;
+  bool slipped_ = false;
   int contradicting_ = 0;  // observations that say that the robot is lost
   int asked_at_ = 0;       // value of that at the last relocation that was tried
+  int recoveries_ = 0;
   int false_firsts_ = 0;
   std::vector<LandmarkId> carried_;
   std::vector<LandmarkId> distrusted_;

@@ -7,43 +7,24 @@
 
 namespace waymark {
 
-/// Recovery from a slip that the odometry noise does not explain. A filter that only went on gating would
-/// stay lost.
-///
-/// Misread identities are rare. So many consecutive gated observations, in a scan that is mostly gated,
-/// mean that the pose is wrong, not the observations. Then its covariance is inflated step by step until
-/// at least half of the scan passes the gate.
-class Recovery {
- public:
-  /// Counts the outcomes of one scan, once. True if the robot is lost. O(observations).
-  [[nodiscard]] bool is_lost(std::span<const Innovation> innovations);
+/// Whether more of a scan was gated than accepted. O(observations).
+[[nodiscard]] bool is_mostly_gated(std::span<const Innovation> innovations);
 
-  /// Calls `inflate(added_motion)` while `innovations` are mostly gated: it makes the pose less sure by the
-  /// motion `added_motion`, of zero mean and independent in x, y and theta (robot frame), and gates again
-  /// what was gated. The standard deviations begin at 0.02 m and 0.02 rad and double from call to call, eight
-  /// at most: about 3 m and 3 rad in all.
-  template <class Inflate>
-  void recover(std::span<const Innovation> innovations, const Inflate& inflate) {
-    ++recoveries_;
-    gated_in_a_row_ = 0;
-    Motion added_motion = first_inflation();
-    for (int doublings = 0; doublings < kMaxDoublings && is_mostly_gated(innovations); ++doublings) {
-      inflate(added_motion);
-      added_motion.covariance *= 4.0;
-    }
+/// Has a filter expect its robot farther and farther from where it believes it to be, until at least half of
+/// a scan passes the gate: a slip that the odometry noise does not explain. Calls `inflate(added_motion)`
+/// while `innovations` are mostly gated: it makes the pose less sure by a motion of zero mean, independent in
+/// x, y and theta (robot frame), and gates again what was gated. The standard deviations begin at 0.02 m and
+/// 0.02 rad and double from call to call, as often as said: about 3 m and 3 rad in all for eight calls, 0.2 m
+/// and 0.2 rad for four.
+template <class Inflate>
+void inflate_until_accepted(std::span<const Innovation> innovations, const Inflate& inflate, int most = 8) {
+  constexpr double kFirstSigma = 0.02;  // m, rad
+  Motion added_motion;
+  added_motion.covariance = kFirstSigma * kFirstSigma * Eigen::Matrix3d::Identity();
+  for (int calls = 0; calls < most && is_mostly_gated(innovations); ++calls) {
+    inflate(added_motion);
+    added_motion.covariance *= 4.0;
   }
-
-  /// How often the robot was lost.
-  [[nodiscard]] int recoveries() const { return recoveries_; }
-
- private:
-  static constexpr int kMaxDoublings = 8;
-
-  [[nodiscard]] static bool is_mostly_gated(std::span<const Innovation> innovations);
-  [[nodiscard]] static Motion first_inflation();
-
-  int gated_in_a_row_ = 0;
-  int recoveries_ = 0;
-};
+}
 
 }  // namespace waymark

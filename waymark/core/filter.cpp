@@ -28,8 +28,6 @@ const char* describe(Outcome outcome) {
       return "its landmark is not in the map";
     case Outcome::kDistrusted:
       return "of landmarks that were found at several places";
-    case Outcome::kUncorroborated:
-      return "of a landmark not seen for long, waiting for another one to confirm it";
   }
   return "unknown";
 }

@@ -27,7 +27,6 @@ enum class Outcome : std::uint8_t {
   kMapFull,     ///< would have been a new landmark, but there is no room
   kNotInMap,    ///< of no landmark of a map that is held as it is
   kDistrusted,  ///< of a landmark that was found at several places: it moves, or two bear its identity
-  kUncorroborated,  ///< of a landmark not seen for long; waits for another one to be where this one says
 };
 
 [[nodiscard]] const char* describe(Outcome outcome);

@@ -182,25 +182,16 @@ void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedOb
 void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation> observations) {
   map_.state().predict(added_motion);
   for (std::size_t i = 0; i < observations.size(); ++i)
-    if (innovations_[i].outcome == Outcome::kGated) gate(innovations_[i], linearize(i, observations[i]));
+    if (innovations_[i].outcome == Outcome::kGated || innovations_[i].outcome == Outcome::kMatched)
+      gate(innovations_[i], linearize(i, observations[i]));
 }
 
 /// The robot's fault is mended at once, that of landmarks when the others have corrected the state.
 void EkfSlam::isolate_faults(std::span<const Observation> observations) {
-  if (held_) {
-    if (recovery_.is_lost(innovations_))
-      recovery_.recover(innovations_,
-                        [&](const Motion& added_motion) { gate_again(added_motion, observations); });
-    return;
-  }
-  faults_.corroborate(observations, innovations_, map_.table(),
-                      [this](int a, int b) { return map_.apart(a, b); });
   faults_.review(observations, innovations_, map_.table());
   if (!faults_.wants_relocation()) return;
-  if (const auto motion = faults_.find_motion(map_.save(), state().active().pose().T_world_robot)) {
-    gate_again(*motion, observations);
-    faults_.relocated();
-  }
+  faults_.relocate(map_.save(), state().active().pose().T_world_robot, innovations_,
+                   [&](const Motion& motion) { gate_again(motion, observations); });
 }
 
 /// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be

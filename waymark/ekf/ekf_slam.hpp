@@ -6,7 +6,6 @@
 #include "waymark/association/association_options.hpp"
 #include "waymark/association/fault_isolation.hpp"
 #include "waymark/association/gate.hpp"
-#include "waymark/association/recovery.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/function_blocks.hpp"
 #include "waymark/ekf/compressed_state.hpp"
@@ -67,9 +66,8 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return map_.state(); }
+  /// What it found of lost robots and wrong landmarks.
   [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
-  /// How often the robot was lost and recovered: see Recovery.
-  [[nodiscard]] int recoveries() const { return recovery_.recoveries(); }
   /// Pairs of landmarks that turned out to be one.
   [[nodiscard]] int merges() const { return merges_; }
 
@@ -108,7 +106,6 @@ class EkfSlam final : public Filter {
   ekf::PointObservation observation_;
   CompletedObservations completed_;
   Gate gate_;
-  Recovery recovery_;
   FaultIsolation faults_;
   ekf::IteratedUpdate iterated_;
   ekf::DeferredInitialiser deferred_;

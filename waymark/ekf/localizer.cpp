@@ -111,8 +111,8 @@ bool Localizer::is_enough(const PoseCandidates& found) const {
   const int agreeing = found.best.agreeing;
   const int candidates = seen_of_map();
   if (3 * agreeing < 2 * candidates) return false;
-  const bool named =
-      std::ranges::all_of(local_map_.landmarks(), [](const ObservedLandmark& seen) { return seen.id.has_value(); });
+  const bool named = std::ranges::all_of(local_map_.landmarks(),
+                                         [](const ObservedLandmark& seen) { return seen.id.has_value(); });
   if (!named) return agreeing >= kMinUnknown && agreeing >= found.rival + kMinAhead;
   const bool no_more = observations_ >= kManyObservations && std::ssize(local_map_.landmarks()) == 2;
   return agreeing >= kMinKnown || (no_more && agreeing == 2);
@@ -146,8 +146,8 @@ const Correction& Localizer::localize_at(const PoseCandidate& found) {
   std::vector<Observation> agreeing;
   for (std::size_t k = 0; k < local_map_.landmarks().size(); ++k)
     if (found.landmarks[k] >= 0)
-      agreeing.push_back(
-          observe(local_map_.landmarks()[k], map_.ids[static_cast<std::size_t>(found.landmarks[k])], T_robot_sensor_));
+      agreeing.push_back(observe(local_map_.landmarks()[k],
+                                 map_.ids[static_cast<std::size_t>(found.landmarks[k])], T_robot_sensor_));
   local_map_.clear();
   observations_ = 0;
   return ekf_.correct(agreeing);

@@ -60,9 +60,9 @@ class Localizer final : public Filter {
   EkfSlam ekf_;
   bool located_ = false;
   std::optional<Error> refusal_;
-  int observations_ = 0;                  // in it
-  double driven_s_ = 0.0;                 // meanwhile
-  int doubt_ = 0;                         // observations that contradict, less those that agree
+  int observations_ = 0;   // in it
+  double driven_s_ = 0.0;  // meanwhile
+  int doubt_ = 0;          // observations that contradict, less those that agree
   int losses_ = 0;
   std::vector<Innovation> innovations_;
   Correction searching_;

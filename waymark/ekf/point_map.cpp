@@ -1,7 +1,6 @@
 #include "waymark/ekf/point_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "waymark/core/text.hpp"
@@ -104,17 +103,6 @@ bool PointMap::make_room() {
   const auto least_useful = management_.least_useful();
   if (least_useful) remove(*least_useful);
   return least_useful.has_value();
-}
-
-FaultIsolation::Apart PointMap::apart(int from, int to) {
-  state_.consider(std::array{from, to});
-  LinearizedObservation difference;
-  difference.landmark = to;
-  difference.anchor = from;
-  difference.H_landmark.leftCols<2>().setIdentity();
-  difference.H_anchor.leftCols<2>() = -Eigen::Matrix2d::Identity();
-  return {(state_.landmark(to) - state_.landmark(from)).head<2>(),
-          state_.common_covariance(difference, difference)};
 }
 
 int PointMap::append_point(const Eigen::Vector2d& p_world) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "waymark/association/fault_isolation.hpp"
 #include "waymark/association/landmark_table.hpp"
 #include "waymark/core/as_index.hpp"
 #include "waymark/core/map_state.hpp"
@@ -49,9 +48,6 @@ class PointMap {
   void remove(int landmark);
   /// Whether there is room for one more, if need be by removing the least useful landmark.
   [[nodiscard]] bool make_room();
-
-  /// From one landmark to another, world frame. They are brought into the submap of a compressed state.
-  [[nodiscard]] FaultIsolation::Apart apart(int from, int to);
 
   /// Appends a point that is no landmark, as the robot's pose has it; never evicted. Returns its handle.
   [[nodiscard]] int append_point(const Eigen::Vector2d& p_world);

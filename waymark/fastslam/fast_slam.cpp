@@ -125,17 +125,14 @@ void FastSlam::gate() {
 /// The robot's fault is mended at once, by a motion that is still to be drawn; that of landmarks when the
 /// others have corrected the particles.
 void FastSlam::isolate_faults() {
-  faults_.corroborate(scan_.observations, scan_.innovations, belief_.landmarks,
-                      [this](int a, int b) { return fastslam::apart(belief_, a, b); });
   faults_.review(scan_.observations, scan_.innovations, belief_.landmarks);
   if (!faults_.wants_relocation()) return;
-  const auto motion = faults_.find_motion(save(), pose().T_world_robot);
-  if (!motion) return;
   belief_.has_moved = true;
-  belief_.pending = compose(belief_.pending, *motion);
-  for (std::size_t i = 0; i < scan_.size(); ++i)
-    if (scan_.is(i, Outcome::kGated)) gate_.judge(i, scan_, belief_);
-  faults_.relocated();
+  faults_.relocate(save(), pose().T_world_robot, scan_.innovations, [this](const Motion& motion) {
+    belief_.pending = compose(belief_.pending, motion);
+    for (std::size_t i = 0; i < scan_.size(); ++i)
+      if (scan_.is(i, Outcome::kGated) || scan_.is(i, Outcome::kMatched)) gate_.judge(i, scan_, belief_);
+  });
 }
 
 /// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be

@@ -38,7 +38,8 @@ namespace waymark {
 /// Robust where the plain filter starves:
 /// * An observation weighs particles by how much information it brings (fastslam::InformationWeight), or
 ///   moves them instead (fastslam::ScanUpdate).
-/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether the
+/// * An observation is gated by the whole set, not particle by particle (fastslam::InnovationGate). Whether
+/// the
 ///   robot or a landmark is to blame for those that are is what FaultIsolation tells.
 /// * Weights never collapse onto a few particles (fastslam::AdaptiveResampling).
 /// * The pose and its covariance are taken after weighting and before resampling.
@@ -63,6 +64,7 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return belief_.calibration; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
+  /// What it found of lost robots and wrong landmarks.
   [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }

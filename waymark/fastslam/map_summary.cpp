@@ -84,19 +84,4 @@ MapState summarise(const Belief& belief) {
   return map;
 }
 
-FaultIsolation::Apart apart(const Belief& belief, int from, int to) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
-  const Eigen::Vector2d near = belief.store.at(to, 0).mean - belief.store.at(from, 0).mean;
-  for (int i = 0; i < belief.particles.count(); ++i) {
-    const PointGaussian a = belief.store.at(from, i);
-    const PointGaussian b = belief.store.at(to, i);
-    const Eigen::Vector2d d = b.mean - a.mean - near;
-    const double w = belief.particles.weights()[static_cast<std::size_t>(i)];
-    mean += w * d;
-    second += w * (d * d.transpose() + a.covariance + b.covariance);
-  }
-  return {near + mean, second - mean * mean.transpose()};
-}
-
 }  // namespace waymark::fastslam

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "waymark/association/fault_isolation.hpp"
 #include "waymark/core/map_state.hpp"
 #include "waymark/fastslam/belief.hpp"
 
@@ -17,8 +16,5 @@ namespace waymark::fastslam {
 /// plus the particles' own landmark covariances; the robot after the pending motion. Allocates. O(N
 /// landmarks^2).
 [[nodiscard]] MapState summarise(const Belief& belief);
-
-/// From one landmark to another, over the particles as they weigh: world frame. O(N).
-[[nodiscard]] FaultIsolation::Apart apart(const Belief& belief, int from, int to);
 
 }  // namespace waymark::fastslam

@@ -34,8 +34,7 @@ std::vector<std::string> describe_refusals(const std::vector<Recording::TimedInn
   std::vector<std::string> lines;
   for (const Outcome outcome :
        {Outcome::kGated, Outcome::kUnidentified, Outcome::kUnusable, Outcome::kAmbiguous, Outcome::kDuplicate,
-        Outcome::kMapFull, Outcome::kNotInMap, Outcome::kDeferred, Outcome::kDistrusted,
-        Outcome::kUncorroborated}) {
+        Outcome::kMapFull, Outcome::kNotInMap, Outcome::kDeferred, Outcome::kDistrusted}) {
     const auto count = std::ranges::count_if(
         innovations, [outcome](const auto& i) { return i.innovation.outcome == outcome; });
     if (count > 0)

@@ -25,8 +25,8 @@ int steps_of(const PathSegment& segment, const SimOptions& options) {
 }
 
 // A robot that turns on the spot leaves its errors for the next straight line. It catches up at twice its
-// speed at most, waits rather than drives backwards, and corrects its heading no faster than it may turn: small
-// errors never meet these limits, only a robot that was carried away does.
+// speed at most, waits rather than drives backwards, and corrects its heading no faster than it may turn:
+// small errors never meet these limits, only a robot that was carried away does.
 ArcStep steer(const ArcStep& planned, const Pose2& T_world_planned, const Pose2& T_world_robot,
               double max_turn_rad) {
   const Pose2 error = T_world_robot.inverse() * T_world_planned;

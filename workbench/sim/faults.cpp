@@ -19,8 +19,8 @@ constexpr int kScansInView = 10;
 // Attempts to find a place for a landmark that is carried.
 constexpr int kPlaces = 1000;
 
-int scans_in_view(const SensorOptions& options, const Drive& drive, const Eigen::Vector2d& p_world, Stamp from,
-                  Stamp to) {
+int scans_in_view(const SensorOptions& options, const Drive& drive, const Eigen::Vector2d& p_world,
+                  Stamp from, Stamp to) {
   const Pose2 T_robot_sensor = model_of(options).T_robot_sensor();
   int count = 0;
   for (std::uint64_t i = 0; scan_stamp(options, i) <= to; ++i) {
@@ -32,7 +32,8 @@ int scans_in_view(const SensorOptions& options, const Drive& drive, const Eigen:
 }
 
 /// Identities in the order in which they are first seen, each with a drawn rank.
-std::vector<std::pair<double, LandmarkId>> rank_identities(const std::vector<Event>& scans, std::uint64_t seed) {
+std::vector<std::pair<double, LandmarkId>> rank_identities(const std::vector<Event>& scans,
+                                                           std::uint64_t seed) {
   std::set<LandmarkId> known;
   std::vector<std::pair<double, LandmarkId>> ranks;
   RandomStream random(seed, StreamPurpose::kSimulation, 0, kFalseFirst);
@@ -89,12 +90,14 @@ std::optional<CarriedLandmark> carry_landmark(const FaultOptions& options, const
   const Stamp at = stamp_from_seconds(options.landmark_carried_at_s);
   RandomStream random(seed, StreamPurpose::kSimulation, 0, kCarriedLandmark);
   for (int i = 0; i < kPlaces; ++i) {
-    const auto index = std::min(landmarks.size() - 1, static_cast<std::size_t>(
-                                                          random.uniform() * static_cast<double>(landmarks.size())));
+    const auto index =
+        std::min(landmarks.size() - 1,
+                 static_cast<std::size_t>(random.uniform() * static_cast<double>(landmarks.size())));
     const double direction_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
     const Eigen::Vector2d from_m(landmarks[index].x_m, landmarks[index].y_m);
     const Eigen::Vector2d to_m =
-        from_m + options.landmark_carried_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
+        from_m +
+        options.landmark_carried_m * Eigen::Vector2d(std::cos(direction_rad), std::sin(direction_rad));
     if (scans_in_view(sensor, drive, from_m, drive.stamp(0), at) >= kScansInView &&
         scans_in_view(sensor, drive, to_m, at, drive.end()) >= kScansInView)
       return CarriedLandmark{index, at, to_m};
@@ -120,8 +123,9 @@ void make_false(std::vector<Event>& scans, const FaultOptions& options,
     std::erase_if(std::get<Observations>(scans[i].content), [&](Observation& observation) {
       const bool is_first = observation.id && false_firsts.erase(*observation.id) > 0;
       const bool is_false = random.uniform() < options.outlier_share || is_first;
-      const bool is_carried = carried && scans[i].stamp >= carried->at && observation.id == landmarks[carried->index].id;
-      if (is_false && !options.omit) spoil(observation.value, random);
+      const bool is_carried =
+          carried && scans[i].stamp >= carried->at && observation.id == landmarks[carried->index].id;
+      if (is_false) spoil(observation.value, random);  // what is left out, too: the rest is as in the twin
       return options.omit && (is_false || is_carried);
     });
   }

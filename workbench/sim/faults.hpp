@@ -14,7 +14,8 @@
 
 namespace waymark::sim {
 
-/// The random streams of faults, apart from those of noise: a run with faults has the noise of its twin without.
+/// The random streams of faults, apart from those of noise: a run with faults has the noise of its twin
+/// without.
 enum FaultStream : std::uint32_t { kCarriedRobot = 2, kCarriedLandmark = 3, kFalseFirst = 4, kFalse = 5 };
 
 /// A landmark that someone moves.
@@ -39,8 +40,8 @@ struct CarriedLandmark {
                                                   const std::optional<CarriedLandmark>& carried, Stamp when);
 
 /// Makes observations of these scans false, as many as the options say: the first of some landmarks, and any.
-/// With FaultOptions::omit it takes out what it would have made false, and what is seen of a landmark after it was
-/// carried. Observations must have their identities.
+/// With FaultOptions::omit it takes out what it would have made false, and what is seen of a landmark after
+/// it was carried. Observations must have their identities.
 void make_false(std::vector<Event>& scans, const FaultOptions& options,
                 const std::optional<CarriedLandmark>& carried, const std::vector<TrueLandmark>& landmarks,
                 std::uint64_t seed);

@@ -24,8 +24,8 @@ namespace waymark::sim {
 
 /// One scan from a true pose of the robot: the landmarks whose true range and bearing are within the sensor's
 /// limits, with noise, drops, misread identities and false observations, which lie evenly over range and
-/// bearing. Noise may carry a value beyond a limit. All have their identity but clutter. Order follows `landmarks`, clutter behind what it
-/// accompanies; a false observation with an identity comes last.
+/// bearing. Noise may carry a value beyond a limit. All have their identity but clutter. Order follows
+/// `landmarks`, clutter behind what it accompanies; a false observation with an identity comes last.
 [[nodiscard]] Observations scan(const SensorOptions& options, const Pose2& T_world_robot,
                                 const std::vector<TrueLandmark>& landmarks, RandomStream& random);
 

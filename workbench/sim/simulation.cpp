@@ -129,7 +129,8 @@ std::vector<Event> make_scans(const Drive& drive, const SimOptions& options,
     const Stamp stamp = scan_stamp(options.sensor, i);
     if (stamp > drive.end()) return scans;
     RandomStream random(seed, StreamPurpose::kSimulation, i, 1);
-    scans.emplace_back(stamp, scan(options.sensor, drive.at(stamp), places_at(landmarks, carried, stamp), random));
+    scans.emplace_back(stamp,
+                       scan(options.sensor, drive.at(stamp), places_at(landmarks, carried, stamp), random));
   }
 }
 
