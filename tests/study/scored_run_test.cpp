@@ -22,9 +22,10 @@ TEST(ScoredRun, HoldsWhatRanAndHowItIsScored) {
 TEST(ScoredRun, InputThatCannotBeOpenedIsAnError) { EXPECT_FALSE(run_and_score("nowhere", kUser).ok()); }
 
 TEST(ScoredRun, CanBeStopped) {
-  const auto run = run_and_score("sim:square", kUser, {}, [](double) { return false; });
+  const auto run = run_and_score("sim:square", kUser, {}, [](double progress) { return progress < 0.5; });
   ASSERT_TRUE(run.ok());
   EXPECT_TRUE(run->recording.error.has_value());
+  EXPECT_FALSE(run->recording.trajectory.empty());
 }
 
 }  // namespace
