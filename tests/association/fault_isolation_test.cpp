@@ -148,6 +148,21 @@ TEST_F(FaultIsolationTest, OneLandmarkAgainstOthersWasCarried) {
   EXPECT_FALSE(faults_.is_distrusted(marker(1)));
 }
 
+TEST_F(FaultIsolationTest, WhereManyWereCarriedItIsNotTheLandmarks) {
+  for (int number = 1; number <= 4; ++number) add(number);
+  const auto is_carried = [&](int number) {
+    gated(number, 3.0);
+    faults_.predict(kOnTheSpot);
+    for (int i = 0; i < 3; ++i) accepted(3);
+    accepted(4);
+    gated(number, 3.0);
+    gated(number, 3.0);
+    return faults_.is_landmark_wrong(0);
+  };
+  EXPECT_TRUE(is_carried(1));
+  EXPECT_FALSE(is_carried(2));
+}
+
 TEST_F(FaultIsolationTest, OneLandmarkAgainstOneOtherMayBeEither) {
   add(1);
   add(2);

@@ -22,6 +22,7 @@ constexpr int kSupporters = 2;      // other landmarks that they are of
 constexpr std::size_t kMaxSupporters = 16;
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
+constexpr int kCarriedOneIn = 10;      // landmarks at most, or one in all
 constexpr int kSureObservations = 10;  // of two landmarks
 constexpr double kSlip_m = 0.18;       // sigma of what kSlipInflations add
 /// The product of the standard deviations of where a landmark was expected across and along the view, from
@@ -84,7 +85,7 @@ void FaultIsolation::review(std::span<const Observation> observations, std::span
     contradiction.reviewed_at = reviews_;
     contradiction.expected_m2 = expected_m2(innovations[i], doubted_.find(innovations[i].landmark));
     contradiction.once = table[*landmark].observations == 1;
-    wrong_[i] = is_outweighed(contradiction);
+    wrong_[i] = is_outweighed(contradiction) && may_be_wrong(contradiction, table.size());
     if (wrong_[i]) blame(contradiction);
   }
   lost_ = judge_robot(innovations);
@@ -115,6 +116,12 @@ void FaultIsolation::blame(const Contradiction& contradiction) {
 void FaultIsolation::forget(LandmarkId id) {
   doubted_.erase(id);
   std::erase_if(contradictions_, [id](const Contradiction& each) { return each.id == id; });
+}
+
+/// Where many landmarks seem to have been moved it is not the landmarks.
+bool FaultIsolation::may_be_wrong(const Contradiction& contradiction, int landmarks) const {
+  const bool again = std::ranges::find(carried_, contradiction.id) != carried_.end();
+  return contradiction.once || again || std::ssize(carried_) < std::max(1, landmarks / kCarriedOneIn);
 }
 
 /// An accepted observation ends the contradiction of its landmark: the gated ones before were outliers.

@@ -117,6 +117,7 @@ class FaultIsolation {
   Contradiction& contradict(LandmarkId id, const Observation& observation);
   void support(LandmarkId id, bool is_connected);
   void blame(const Contradiction& contradiction);
+  [[nodiscard]] bool may_be_wrong(const Contradiction& contradiction, int landmarks) const;
   void forget(LandmarkId id);
   [[nodiscard]] bool is_outweighed(const Contradiction& contradiction) const;
   [[nodiscard]] bool speaks_of_the_robot(const Contradiction& contradiction) const;
