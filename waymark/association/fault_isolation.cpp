@@ -19,12 +19,12 @@ constexpr int kLong = 5;            // after so many that were gated
 constexpr double kLateGate = 0.99;  // one is accepted only if it fits as most do
 constexpr int kSupport = 3;         // accepted observations of other landmarks meanwhile
 constexpr int kSupporters = 2;      // other landmarks that they are of
-constexpr std::size_t kMaxSupporters = 16;
 constexpr int kLostObservations = 5;
 constexpr int kLostLandmarks = 2;
 constexpr int kCarriedOneIn = 10;      // landmarks at most, or one in all
 constexpr int kSureObservations = 10;  // of two landmarks
 constexpr double kSlip_m = 0.18;       // sigma of what kSlipInflations add
+
 /// The product of the standard deviations of where a landmark was expected across and along the view, from
 /// the innovation covariance of range (m) and bearing (rad); 0 where it has no place.
 double expected_m2(const Innovation& innovation, const ObservedLandmark* seen) {
@@ -56,51 +56,67 @@ Eigen::Matrix3d increment_covariance(const PoseCandidate& fit, std::span<const O
 }  // namespace
 
 FaultIsolation::FaultIsolation(const LandmarkSensor& sensor)
-    : independent_m_(sensor.errors.bias_distance_m), late_gate_({kLateGate}), doubted_(sensor) {
-  contradictions_.reserve(LocalMap::kCapacity);
-  supporters_.reserve(kMaxSupporters);
-}
-
-void FaultIsolation::predict(const Motion& motion) {
-  doubted_.predict(motion);
-  travelled_m_ += travelled_m(motion);
-}
+    : independent_m_(sensor.errors.bias_distance_m), late_gate_({kLateGate}), contradictions_(sensor) {}
 
 void FaultIsolation::review(std::span<const Observation> observations, std::span<Innovation> innovations,
                             const LandmarkTable& table) {
-  ++reviews_;
   wrong_.assign(innovations.size(), 0);
   for (Innovation& innovation : innovations)
     if (is_accepted_too_late(innovation)) innovation.outcome = Outcome::kGated;
   for (std::size_t i = 0; i < innovations.size(); ++i) {
     if (!observations[i].id || innovations[i].outcome != Outcome::kMatched) continue;
     const auto landmark = table.find(innovations[i].landmark);
-    support(innovations[i].landmark, landmark && table.is_connected(*landmark));
+    contradictions_.support(innovations[i].landmark, landmark && table.is_connected(*landmark));
   }
+  bool slipped = false;
   for (std::size_t i = 0; i < innovations.size(); ++i) {
     if (!observations[i].id || innovations[i].outcome != Outcome::kGated) continue;
     const auto landmark = table.find(innovations[i].landmark);
     if (!landmark) continue;
-    Contradiction& contradiction = contradict(innovations[i].landmark, observations[i]);
-    contradiction.reviewed_at = reviews_;
-    contradiction.expected_m2 = expected_m2(innovations[i], doubted_.find(innovations[i].landmark));
+    Contradiction& contradiction = contradictions_.contradict(innovations[i].landmark, observations[i]);
     contradiction.once = table[*landmark].observations == 1;
-    wrong_[i] = is_outweighed(contradiction) && may_be_wrong(contradiction, table.size());
+    slipped |= may_be_a_slip(contradiction, innovations[i]);
+    wrong_[i] = is_outweighed(contradiction) &&
+                (contradiction.once || may_be_carried(contradiction.id, table.size()));
     if (wrong_[i]) blame(contradiction);
   }
   lost_ = judge_robot(innovations);
-  slipped_ = !lost_ && judge_slip(innovations);
+  slipped_ = slipped && !lost_ && is_mostly_gated(innovations);
 }
 
 /// The gate widens as the robot drives on without a fix, until it lets pass what it refused all the time.
 bool FaultIsolation::is_accepted_too_late(const Innovation& innovation) const {
-  if (innovation.outcome != Outcome::kMatched || contradictions_.empty()) return false;
-  const auto at = std::ranges::find(contradictions_, innovation.landmark, &Contradiction::id);
-  return at != contradictions_.end() && at->observations >= kLong &&
+  if (innovation.outcome != Outcome::kMatched) return false;
+  const Contradiction* const contradiction = contradictions_.find(innovation.landmark);
+  return contradiction != nullptr && contradiction->observations >= kLong &&
          innovation.nis > late_gate_.threshold(innovation.dof);
 }
 
-/// The landmark begins anew; one that was found wrong before is where it is only now and then.
+/// How many other landmarks that the map is sure of contradict the pose, since or while this one does.
+int FaultIsolation::other_landmarks_against(const Contradiction& contradiction) const {
+  return static_cast<int>(std::ranges::count_if(contradictions_.all(), [&](const Contradiction& each) {
+    return each.id != contradiction.id && !each.once && each.observations >= kOutweighOne;
+  }));
+}
+
+bool FaultIsolation::is_outweighed(const Contradiction& contradiction) const {
+  const int one = contradiction.placed ? kOutweighOne : kOutweighOneUnplaced;
+  const int many = contradiction.placed ? kOutweighMany : kOutweighManyUnplaced;
+  if (contradiction.once) return contradiction.observations >= one;
+  const int supporters = contradictions_.supporters_since(contradiction);
+  const bool independent = contradictions_.travelled_since_m(contradiction) > independent_m_;
+  return independent && contradiction.observations >= many &&
+         contradictions_.support_since(contradiction) >= kSupport && supporters >= kSupporters &&
+         supporters > other_landmarks_against(contradiction);
+}
+
+/// Where many landmarks seem to have been moved it is not the landmarks.
+bool FaultIsolation::may_be_carried(LandmarkId id, int landmarks) const {
+  const bool again = std::ranges::find(carried_, id) != carried_.end();
+  return again || std::ssize(carried_) < std::max(1, landmarks / kCarriedOneIn);
+}
+
+/// The landmark begins anew; one that was found elsewhere before is where it is only now and then.
 void FaultIsolation::blame(const Contradiction& contradiction) {
   const LandmarkId id = contradiction.id;
   if (contradiction.once) {
@@ -110,92 +126,19 @@ void FaultIsolation::blame(const Contradiction& contradiction) {
   } else {
     distrusted_.push_back(id);
   }
-  forget(id);
+  contradictions_.forget(id);
 }
 
-void FaultIsolation::forget(LandmarkId id) {
-  doubted_.erase(id);
-  std::erase_if(contradictions_, [id](const Contradiction& each) { return each.id == id; });
-}
-
-/// Where many landmarks seem to have been moved it is not the landmarks.
-bool FaultIsolation::may_be_wrong(const Contradiction& contradiction, int landmarks) const {
-  const bool again = std::ranges::find(carried_, contradiction.id) != carried_.end();
-  return contradiction.once || again || std::ssize(carried_) < std::max(1, landmarks / kCarriedOneIn);
-}
-
-/// An accepted observation ends the contradiction of its landmark: the gated ones before were outliers.
-void FaultIsolation::support(LandmarkId id, bool is_connected) {
-  forget(id);
-  if (!is_connected) return;
-  ++support_;
-  std::erase_if(supporters_, [id](const Supporter& each) { return each.id == id; });
-  if (supporters_.size() == kMaxSupporters) supporters_.erase(supporters_.begin());
-  supporters_.push_back({id, support_});
-}
-
-/// How many landmarks have supported the pose since then.
-int FaultIsolation::supporters_since(std::int64_t support) const {
-  return static_cast<int>(std::ranges::count_if(
-      supporters_, [support](const Supporter& each) { return each.supported_at > support; }));
-}
-
-/// How many other landmarks that the map is sure of contradict the pose, since or while this one does.
-int FaultIsolation::contradicting_others(const Contradiction& contradiction) const {
-  return static_cast<int>(std::ranges::count_if(contradictions_, [&](const Contradiction& each) {
-    return each.id != contradiction.id && !each.once && each.observations >= kOutweighOne;
-  }));
-}
-
-FaultIsolation::Contradiction& FaultIsolation::contradict(LandmarkId id, const Observation& observation) {
-  const ObservedLandmark* const before = doubted_.find(id);
-  const auto seen = doubted_.locate(observation);
-  const bool agrees = !seen || !before || LocalMap::agree(*before, *seen);
-  doubted_.observe(observation);
-  const auto at = std::ranges::find(contradictions_, id, &Contradiction::id);
-  const Contradiction first{
-      .id = id, .began_at_support = support_, .began_at_m = travelled_m_, .placed = seen.has_value()};
-  if (at == contradictions_.end()) {
-    if (contradictions_.size() == LocalMap::kCapacity) contradictions_.erase(contradictions_.begin());
-    return contradictions_.emplace_back(first);
-  }
-  const int in_a_row = at->in_a_row + 1;
-  if (agrees)
-    ++at->observations;
-  else
-    *at = first;
-  at->in_a_row = in_a_row;
-  return *at;
-}
-
-bool FaultIsolation::is_outweighed(const Contradiction& contradiction) const {
-  const int one = contradiction.placed ? kOutweighOne : kOutweighOneUnplaced;
-  const int many = contradiction.placed ? kOutweighMany : kOutweighManyUnplaced;
-  if (contradiction.once) return contradiction.observations >= one;
-  const int supporters = supporters_since(contradiction.began_at_support);
-  const bool independent = travelled_m_ - contradiction.began_at_m > independent_m_;
-  return independent && contradiction.observations >= many &&
-         support_ - contradiction.began_at_support >= kSupport && supporters >= kSupporters &&
-         supporters > contradicting_others(contradiction);
-}
-
-/// Fewer landmarks have supported the pose since it began than contradict it.
+/// No more landmarks have supported the pose since it began than others contradict it.
 bool FaultIsolation::speaks_of_the_robot(const Contradiction& contradiction) const {
   return !contradiction.once && contradiction.observations >= kOutweighOne &&
-         supporters_since(contradiction.began_at_support) <= contradicting_others(contradiction);
-}
-
-/// By any landmark, against one that speaks of the robot.
-bool FaultIsolation::is_supported() const {
-  return std::ranges::any_of(contradictions_, [this](const Contradiction& each) {
-    return speaks_of_the_robot(each) && supporters_since(each.began_at_support) > 0;
-  });
+         contradictions_.supporters_since(contradiction) <= other_landmarks_against(contradiction);
 }
 
 bool FaultIsolation::judge_robot(std::span<const Innovation> innovations) {
   int landmarks = 0;
   contradicting_ = 0;
-  for (const Contradiction& each : contradictions_) {
+  for (const Contradiction& each : contradictions_.all()) {
     if (!speaks_of_the_robot(each)) continue;
     ++landmarks;
     contradicting_ += each.observations;
@@ -205,15 +148,13 @@ bool FaultIsolation::judge_robot(std::span<const Innovation> innovations) {
   return lost && (lost_ || is_mostly_gated(innovations));
 }
 
-/// One landmark alone, which nothing contradicts nor supports, has just been gated often enough. That the
-/// robot slipped a little is likelier than that someone moved the landmark a little; but where it was
-/// expected anywhere within more than a slip, a slip explains nothing.
-bool FaultIsolation::judge_slip(std::span<const Innovation> innovations) const {
-  return is_mostly_gated(innovations) &&
-         std::ranges::any_of(contradictions_, [this](const Contradiction& each) {
-           return !each.once && each.in_a_row == kLostObservations && each.reviewed_at == reviews_ &&
-                  supporters_since(each.began_at_support) == 0 && each.expected_m2 < kSlip_m * kSlip_m;
-         });
+/// One landmark alone, which nothing supports, has just been gated often enough. That the robot slipped a
+/// little is likelier than that someone moved the landmark a little; but where it was expected anywhere
+/// within more than a slip, a slip explains nothing.
+bool FaultIsolation::may_be_a_slip(const Contradiction& contradiction, const Innovation& innovation) const {
+  return !contradiction.once && contradiction.in_a_row == kLostObservations &&
+         contradictions_.supporters_since(contradiction) == 0 &&
+         expected_m2(innovation, contradictions_.seen(contradiction)) < kSlip_m * kSlip_m;
 }
 
 bool FaultIsolation::is_distrusted(LandmarkId id) const {
@@ -227,21 +168,19 @@ bool FaultIsolation::wants_relocation() {
   return true;
 }
 
-std::vector<ObservedLandmark> FaultIsolation::contradicting() const {
-  std::vector<ObservedLandmark> seen;
-  for (const Contradiction& each : contradictions_)
-    if (const ObservedLandmark* at = doubted_.find(each.id); at && speaks_of_the_robot(each))
-      seen.push_back(*at);
-  return seen;
-}
-
 std::optional<Motion> FaultIsolation::find_motion(const MapState& map, const Pose2& T_world_robot) const {
-  const std::vector<ObservedLandmark> seen = contradicting();
+  std::vector<ObservedLandmark> seen;
+  bool supported = false;
+  for (const Contradiction& each : contradictions_.all()) {
+    if (!speaks_of_the_robot(each)) continue;
+    supported |= contradictions_.supporters_since(each) > 0;
+    if (const ObservedLandmark* const at = contradictions_.seen(each)) seen.push_back(*at);
+  }
   const PoseCandidates found = find_pose(seen, map);
   const auto enough = std::max<std::ptrdiff_t>(kLostLandmarks, (2 * std::ssize(seen) + 2) / 3);
   if (found.best.agreeing < enough) return std::nullopt;
   // Two are as far apart as in the map by chance now and then.
-  if (found.best.agreeing == kLostLandmarks && (is_supported() || contradicting_ < kSureObservations))
+  if (found.best.agreeing == kLostLandmarks && (supported || contradicting_ < kSureObservations))
     return std::nullopt;
   // Three sigmas: the next observations are used again, and those of one place have errors in common.
   return Motion{T_world_robot.inverse() * found.best.T_world_robot,
@@ -256,18 +195,11 @@ FilterHealth FaultIsolation::health() const {
           .lost = lost_};
 }
 
-bool FaultIsolation::knows_places() const {
-  return std::ranges::any_of(contradictions_, &Contradiction::placed);
-}
-
 void FaultIsolation::begin_anew() {
   ++recoveries_;
   lost_ = false;
   asked_at_ = 0;
-  ++support_;
-  doubted_.clear();
   contradictions_.clear();
-  supporters_.clear();
 }
 
 }  // namespace waymark

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "waymark/association/contradictions.hpp"
 #include "waymark/association/gate.hpp"
 #include "waymark/association/landmark_table.hpp"
-#include "waymark/association/local_map.hpp"
 #include "waymark/association/recovery.hpp"
 #include "waymark/core/filter.hpp"
 #include "waymark/core/map_state.hpp"
@@ -18,13 +19,13 @@ namespace waymark {
 
 /// Whose fault it is when observations of landmarks of known identity are gated (fault detection and
 /// isolation). One gated observation is an outlier. Consecutive ones of a landmark that agree with each
-/// other, by odometry, are a fact:
-/// * While observations of other landmarks are accepted it is the landmark's: its first observation was
-/// false, it
-///   was carried elsewhere, or two bear one identity. It has to begin anew where it is seen.
-/// * When those of several landmarks are gated and none is accepted it is the robot's: it slipped, or was
-/// carried.
-///   If what it sees is arranged as in the map, it is where the map says.
+/// other, by odometry, are a Contradiction.
+///
+/// If observations of more other landmarks are accepted meanwhile than contradict, it is the landmark's: its
+/// first observation was false, it was carried elsewhere, or two bear one identity. It has to begin anew
+/// where it is seen. If more landmarks contradict the pose than support it, it is the robot's: it slipped,
+/// was carried, or closed a loop by a landmark that was. If what it sees is arranged as in the map, it is
+/// where the map says.
 ///
 /// A landmark that was observed once proves nothing: two observations that agree with each other outweigh it.
 /// Landmarks that are younger than a contradiction, and were observed since with none that is older, prove
@@ -36,7 +37,7 @@ class FaultIsolation {
   explicit FaultIsolation(const LandmarkSensor& sensor);
 
   /// The robot moves on. O(landmarks in doubt).
-  void predict(const Motion& motion);
+  void predict(const Motion& motion) { contradictions_.predict(motion); }
 
   /// Takes in what became of the observations of one scan, after gating and before the update; once a scan,
   /// before what else is asked. What passes the gate after others of its landmark did not is gated here if it
@@ -46,8 +47,8 @@ class FaultIsolation {
 
   /// More landmarks contradict the robot's pose than support it.
   [[nodiscard]] bool is_robot_lost() const { return lost_; }
-  /// Whether it is time to look for the robot in its map: it is lost, and more is known than at the last
-  /// time.
+  /// Whether it is time to make the pose fit: the robot is lost, and more is known than at the last time, or
+  /// it seems to have slipped.
   [[nodiscard]] bool wants_relocation();
   /// Makes the robot's pose fit what contradicts it, by motions that `move(motion)` has the filter predict
   /// before it gates again what was gated: the one that takes it to where the landmarks are arranged as in
@@ -58,7 +59,8 @@ class FaultIsolation {
                 const Move& move) {
     if (slipped_) return inflate_until_accepted(innovations, move, kSlipInflations);
     const auto motion = find_motion(map, T_world_robot);
-    if (!motion && knows_places()) return;
+    const bool has_places = std::ranges::any_of(contradictions_.all(), &Contradiction::placed);
+    if (!motion && has_places) return;
     if (motion)
       move(*motion);
     else
@@ -81,61 +83,23 @@ class FaultIsolation {
   /// What was found out so far, in numbers.
   [[nodiscard]] FilterHealth health() const;
 
-  /// Landmarks that began anew because the only observation before was false.
-  [[nodiscard]] int false_firsts() const { return false_firsts_; }
-  /// Landmarks that were found elsewhere.
-  [[nodiscard]] std::span<const LandmarkId> carried() const { return carried_; }
-  /// Those of them that were found elsewhere again.
-  [[nodiscard]] std::span<const LandmarkId> distrusted() const { return distrusted_; }
-
  private:
   static constexpr int kSlipInflations = 4;
 
-  /// Consecutive gated observations of one landmark that agree; the last of them is in the local map.
-  struct Contradiction {
-    LandmarkId id;
-    int observations = 1;
-    int in_a_row = 1;                   ///< that were gated, whether they agree or not
-    std::int64_t began_at_support = 0;  ///< value of support_ then
-    std::int64_t reviewed_at = 0;       ///< the last review that saw it
-    double expected_m2 = 0.0;           ///< ellipse in which the landmark was expected: product of its sigmas
-    double began_at_m = 0.0;            ///< distance travelled then
-    bool once = false;                  ///< the landmark was observed once
-    bool placed = false;                ///< they were seen at a place, so that agreeing means something
-  };
-
-  /// A landmark whose observations were accepted: the last of them, as a value of support_.
-  struct Supporter {
-    LandmarkId id;
-    std::int64_t supported_at = 0;
-  };
-
   [[nodiscard]] bool is_accepted_too_late(const Innovation& innovation) const;
-  [[nodiscard]] bool is_supported() const;
-  [[nodiscard]] int supporters_since(std::int64_t support) const;
-  [[nodiscard]] int contradicting_others(const Contradiction& contradiction) const;
-  Contradiction& contradict(LandmarkId id, const Observation& observation);
-  void support(LandmarkId id, bool is_connected);
-  void blame(const Contradiction& contradiction);
-  [[nodiscard]] bool may_be_wrong(const Contradiction& contradiction, int landmarks) const;
-  void forget(LandmarkId id);
+  [[nodiscard]] int other_landmarks_against(const Contradiction& contradiction) const;
   [[nodiscard]] bool is_outweighed(const Contradiction& contradiction) const;
+  [[nodiscard]] bool may_be_carried(LandmarkId id, int landmarks) const;
   [[nodiscard]] bool speaks_of_the_robot(const Contradiction& contradiction) const;
-  [[nodiscard]] bool judge_slip(std::span<const Innovation> innovations) const;
+  [[nodiscard]] bool may_be_a_slip(const Contradiction& contradiction, const Innovation& innovation) const;
   [[nodiscard]] bool judge_robot(std::span<const Innovation> innovations);
-  [[nodiscard]] std::vector<ObservedLandmark> contradicting() const;
-  [[nodiscard]] bool knows_places() const;
+  void blame(const Contradiction& contradiction);
   void begin_anew();
 
   double independent_m_;  // way after which errors of observations are others
   Gate late_gate_;
-  LocalMap doubted_;
-  double travelled_m_ = 0.0;
-  std::vector<Contradiction> contradictions_;
-  std::vector<Supporter> supporters_;  // the latest kMaxSupporters
-  std::vector<std::uint8_t> wrong_;    // by observation of the scan
-  std::int64_t reviews_ = 0;
-  std::int64_t support_ = 0;  // accepted observations of landmarks that are connected
+  Contradictions contradictions_;
+  std::vector<std::uint8_t> wrong_;  // by observation of the scan
   bool lost_ = false;
   bool slipped_ = false;
   int contradicting_ = 0;  // observations that say that the robot is lost
@@ -143,7 +107,7 @@ class FaultIsolation {
   int recoveries_ = 0;
   int false_firsts_ = 0;
   std::vector<LandmarkId> carried_;
-  std::vector<LandmarkId> distrusted_;
+  std::vector<LandmarkId> distrusted_;  // those that were again
 };
 
 }  // namespace waymark
