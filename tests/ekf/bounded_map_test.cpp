@@ -24,8 +24,9 @@ const Eigen::Vector3d kCorner(4.0, 0.3, 0.6);
 PoseObservation telling(double information) {
   PoseObservation observation;
   observation.P_pose.setIdentity();
-  observation.H_pose << information, 0.0, 0.0, 0.0, information, 0.0;
-  observation.C_pose = observation.H_pose.transpose();
+  Eigen::Matrix<double, 2, 3> H_pose;
+  H_pose << information, 0.0, 0.0, 0.0, information, 0.0;
+  observation.C_pose = H_pose.transpose();
   observation.S = (1.0 + information * information) * Eigen::Matrix2d::Identity();
   return observation;
 }

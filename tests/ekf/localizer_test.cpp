@@ -43,6 +43,22 @@ TEST(Localizer, FindsItselfWithinTheFirstObservationsAndStaysThere) {
   }
 }
 
+TEST(Localizer, FindsBackIntoTheMapWhenTheRobotWasCarried) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CircleWorld world(seed);
+    const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());
+    Localizer& filter = *localizer;
+    drive_round(filter, world, 40);
+    ASSERT_TRUE(filter.knows_pose());
+    for (int i = 0; i < 30; ++i) world.move();  // of which the filter hears nothing
+    drive_round(filter, world, 60);
+    EXPECT_TRUE(filter.knows_pose()) << seed;
+    EXPECT_FALSE(filter.health().lost) << seed;
+    EXPECT_GT(filter.health().recoveries, 0) << seed;
+    EXPECT_LT((filter.pose().T_world_robot.position() - world.truth().position()).norm(), 0.3) << seed;
+  }
+}
+
 TEST(Localizer, KnowsHowSureItIs) {
   const double nees = test::mean_pose_nees([](CircleWorld& world) {
     const auto localizer = *Localizer::make(map_of(world), {}, world.sensor());

@@ -13,9 +13,10 @@ PoseObservation make_observation(RandomStream& random, double pose_scale = 0.1,
                                  double landmark_sigma_m = 0.1) {
   PoseObservation observation;
   observation.P_pose = test::random_covariance<3>(random, pose_scale);
-  for (auto& entry : observation.H_pose.reshaped()) entry = random.normal();
-  observation.C_pose = observation.P_pose * observation.H_pose.transpose();
-  observation.S = observation.H_pose * observation.C_pose +
+  Eigen::Matrix<double, 2, 3> H_pose;
+  for (auto& entry : H_pose.reshaped()) entry = random.normal();
+  observation.C_pose = observation.P_pose * H_pose.transpose();
+  observation.S = H_pose * observation.C_pose +
                   (0.01 + landmark_sigma_m * landmark_sigma_m) * Eigen::Matrix2d::Identity();
   return observation;
 }

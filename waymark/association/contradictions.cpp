@@ -26,12 +26,12 @@ Contradiction& Contradictions::contradict(LandmarkId id, const Observation& obse
       .id = id, .began_at_support = support_, .began_at_m = travelled_m_, .placed = now.has_value()};
   if (at == contradictions_.end()) {
     if (contradictions_.size() == LocalMap::kCapacity) forget(contradictions_.front().id);
-    seen_.observe(observation);
+    if (now) seen_.observe(*now);
     return contradictions_.emplace_back(first);
   }
   const ObservedLandmark* const before = seen_.find(id);
   const bool agrees = !now || !before || LocalMap::agree(*before, *now);
-  seen_.observe(observation);
+  if (now) seen_.observe(*now);
   const int in_a_row = at->in_a_row + 1;
   if (agrees)
     ++at->observations;

@@ -123,7 +123,7 @@ void FaultIsolation::blame(const Contradiction& contradiction) {
     ++false_firsts_;
   } else if (std::ranges::find(carried_, id) == carried_.end()) {
     carried_.push_back(id);
-  } else {
+  } else if (!is_distrusted(id)) {
     distrusted_.push_back(id);
   }
   contradictions_.forget(id);
@@ -195,9 +195,8 @@ FilterHealth FaultIsolation::health() const {
           .lost = lost_};
 }
 
-void FaultIsolation::begin_anew() {
-  ++recoveries_;
-  lost_ = false;
+void FaultIsolation::forget() {
+  lost_ = slipped_ = false;
   asked_at_ = 0;
   contradictions_.clear();
 }

@@ -31,7 +31,8 @@ namespace waymark {
 /// Landmarks that are younger than a contradiction, and were observed since with none that is older, prove
 /// nothing either: a lost robot added them. docs/fault-isolation.md derives the counts.
 ///
-/// Memory is taken at construction but for the names of landmarks that are found wrong.
+/// Memory is taken at construction, but a little as scans grow and for the identities of landmarks that are
+/// found wrong.
 class FaultIsolation {
  public:
   explicit FaultIsolation(const LandmarkSensor& sensor);
@@ -45,32 +46,35 @@ class FaultIsolation {
   void review(std::span<const Observation> observations, std::span<Innovation> innovations,
               const LandmarkTable& table);
 
-  /// More landmarks contradict the robot's pose than support it.
-  [[nodiscard]] bool is_robot_lost() const { return lost_; }
   /// Whether it is time to make the pose fit: the robot is lost, and more is known than at the last time, or
   /// it seems to have slipped.
   [[nodiscard]] bool wants_relocation();
   /// Makes the robot's pose fit what contradicts it, by motions that `move(motion)` has the filter predict
-  /// before it gates again what was gated: the one that takes it to where the landmarks are arranged as in
-  /// the map, if that is clear; where observations have no place, growing ones without direction until the
-  /// scan is accepted (inflate_until_accepted()). `innovations` are those that `move` changes. Allocates.
-  template <class Move>
-  void relocate(const MapState& map, const Pose2& T_world_robot, std::span<const Innovation> innovations,
+  /// before it gates again all that was gated or accepted: the one that takes it to where the landmarks are
+  /// arranged as in the map, which save() gives, if that is clear; where observations have no place, growing
+  /// ones without direction until the scan is accepted (inflate_until_accepted()). `innovations` are those
+  /// that `move` changes. Allocates.
+  template <class Save, class Move>
+  void relocate(const Save& save, const Pose2& T_world_robot, std::span<const Innovation> innovations,
                 const Move& move) {
     if (slipped_) return inflate_until_accepted(innovations, move, kSlipInflations);
-    const auto motion = find_motion(map, T_world_robot);
+    const auto motion = find_motion(save(), T_world_robot);
     const bool has_places = std::ranges::any_of(contradictions_.all(), &Contradiction::placed);
     if (!motion && has_places) return;
     if (motion)
       move(*motion);
     else
       inflate_until_accepted(innovations, move);
-    begin_anew();
+    ++recoveries_;
+    forget();
   }
 
   /// The motion that takes the robot from where it is believed to be to where the landmarks that contradict
   /// that are arranged as in the map, with a covariance. Nothing where that is not clear. Allocates.
   [[nodiscard]] std::optional<Motion> find_motion(const MapState& map, const Pose2& T_world_robot) const;
+
+  /// The robot is somewhere else by now: nothing contradicts that pose yet.
+  void forget();
 
   /// Whether the gated observation at `index` of the last review proves that its landmark is not where the
   /// map has it.
@@ -94,13 +98,12 @@ class FaultIsolation {
   [[nodiscard]] bool may_be_a_slip(const Contradiction& contradiction, const Innovation& innovation) const;
   [[nodiscard]] bool judge_robot(std::span<const Innovation> innovations);
   void blame(const Contradiction& contradiction);
-  void begin_anew();
 
   double independent_m_;  // way after which errors of observations are others
   Gate late_gate_;
   Contradictions contradictions_;
   std::vector<std::uint8_t> wrong_;  // by observation of the scan
-  bool lost_ = false;
+  bool lost_ = false;                // more landmarks contradict the pose than support it
   bool slipped_ = false;
   int contradicting_ = 0;  // observations that say that the robot is lost
   int asked_at_ = 0;       // value of that at the last relocation that was tried

@@ -11,7 +11,6 @@ namespace waymark {
 namespace {
 
 constexpr double kGate1 = 10.83;  // 99.9 % of chi-square with one degree of freedom
-constexpr double kGate2 = 13.82;  // and with two
 constexpr double kShortest_m = 0.2;
 constexpr double kElsewhere_m = 1.0;
 constexpr double kElsewhere_rad = 0.3;
@@ -50,7 +49,7 @@ struct Hypothesis {
 
 struct Match {
   int landmark = -1;
-  double d2 = kGate2;
+  double d2 = kPlaceGate;
 };
 
 class Search {

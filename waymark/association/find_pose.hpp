@@ -12,6 +12,9 @@
 
 namespace waymark {
 
+/// 99.9 % of chi-square with two degrees of freedom.
+inline constexpr double kPlaceGate = 13.82;
+
 /// A landmark as the robot saw it: robot frame, m.
 struct ObservedLandmark {
   std::optional<LandmarkId> id;

@@ -9,8 +9,6 @@
 namespace waymark {
 namespace {
 
-constexpr double kGate2 = 13.82;  // 99.9 % of chi-square with two degrees of freedom
-
 bool can_be_placed(const Observation& observation) {
   const auto* z = std::get_if<RangeBearing>(&observation.value);
   return z != nullptr && observation.covariance && observation.covariance->allFinite() &&
@@ -55,17 +53,15 @@ std::optional<ObservedLandmark> LocalMap::locate(const Observation& observation)
                           place.G_measurement * R * place.G_measurement.transpose()};
 }
 
-const ObservedLandmark* LocalMap::observe(const Observation& observation) {
-  const auto seen = locate(observation);
-  if (!seen) return nullptr;
-  const auto at = same_as(*seen);
+const ObservedLandmark* LocalMap::observe(const ObservedLandmark& seen) {
+  const auto at = same_as(seen);
   if (at != landmarks_.end()) {
     const int times = at->times + 1;
-    *at = *seen;
+    *at = seen;
     at->times = times;
     return &*at;
   }
-  return landmarks_.size() < kCapacity ? &landmarks_.emplace_back(*seen) : nullptr;
+  return landmarks_.size() < kCapacity ? &landmarks_.emplace_back(seen) : nullptr;
 }
 
 const ObservedLandmark* LocalMap::find(LandmarkId id) const {
@@ -76,7 +72,7 @@ const ObservedLandmark* LocalMap::find(LandmarkId id) const {
 bool LocalMap::agree(const ObservedLandmark& first, const ObservedLandmark& second) {
   const auto d2 =
       mahalanobis_squared<2>(second.p_robot - first.p_robot, second.covariance + first.covariance);
-  return d2 && *d2 < kGate2;
+  return d2 && *d2 < kPlaceGate;
 }
 
 void LocalMap::erase(LandmarkId id) {

@@ -23,9 +23,8 @@ class LocalMap {
   void predict(const Motion& motion);
 
   /// The latest observation of a landmark stands for all of them: the same identity, or without one the same
-  /// place (99.9 % gate). `observation` has its covariance. Returns where it is remembered; nullptr where it
-  /// has no place or there is no room.
-  const ObservedLandmark* observe(const Observation& observation);
+  /// place (99.9 % gate). Returns where it is remembered; nullptr where there is no room.
+  const ObservedLandmark* observe(const ObservedLandmark& seen);
 
   /// What the landmark that bears the identity of an observation was last seen to be; nullptr: nothing.
   [[nodiscard]] const ObservedLandmark* find(LandmarkId id) const;

@@ -13,7 +13,7 @@ namespace waymark {
 /// Has a filter expect its robot farther and farther from where it believes it to be, until at least half of
 /// a scan passes the gate: a slip that the odometry noise does not explain. Calls `inflate(added_motion)`
 /// while `innovations` are mostly gated: it makes the pose less sure by a motion of zero mean, independent in
-/// x, y and theta (robot frame), and gates again what was gated. The standard deviations begin at 0.02 m and
+/// x, y and theta (robot frame), and gates again. The standard deviations begin at 0.02 m and
 /// 0.02 rad and double from call to call, as often as said: about 3 m and 3 rad in all for eight calls, 0.2 m
 /// and 0.2 rad for four.
 template <class Inflate>

@@ -12,7 +12,7 @@
 namespace waymark::ekf {
 
 /// What a state of n values did since some moment to everything that it is correlated with (Guivant and Nebot
-/// 2001). Let B be its covariance at that moment with other values b that nothing has jacobian since. Then by
+/// 2001). Let B be its covariance at that moment with other values b that nothing has touched since. Then by
 /// now
 ///
 ///   P_ab = phi B,   P_bb = P_bb0 - B^T psi B,   x_b = x_b0 + B^T tau.

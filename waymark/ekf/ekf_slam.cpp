@@ -62,6 +62,11 @@ void EkfSlam::hold_landmarks() {
   map_.state().hold_landmarks();
 }
 
+void EkfSlam::place_robot(const PoseEstimate& pose) {
+  map_.state().place_robot(pose);
+  faults_.forget();
+}
+
 void EkfSlam::predict(const Motion& motion) {
   BlockTimer timer(blocks_, EkfBlock::kPredict);
   if (!is_still(motion) && is_finite(motion)) {
@@ -165,6 +170,7 @@ std::optional<ekf::LinearizedObservation> EkfSlam::linearize(std::size_t index,
 
 /// Gates one linearised observation, and tells the map management how useful its landmark was.
 void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedObservation>& linearization) {
+  const bool noted = innovation.dof != 0 && innovation.outcome == Outcome::kMatched;
   innovation.outcome = Outcome::kUnusable;
   if (!linearization) return;
   const Eigen::Matrix2d S = state().innovation_covariance(*linearization);
@@ -178,16 +184,16 @@ void EkfSlam::gate(Innovation& innovation, const std::optional<ekf::LinearizedOb
   innovation.nis = *nis;
   innovation.gate = gate_.threshold(linearization->rows);
   innovation.outcome = *nis > innovation.gate ? Outcome::kGated : Outcome::kMatched;
+  if (noted) return;
   ekf::MapManagement& management = map_.management();
   if (innovation.outcome == Outcome::kMatched)
     management.matched(linearization->landmark,
-                       {state().active().pose().covariance, state().pose_correlation(*linearization), S,
-                        linearization->H_pose});
+                       {state().active().pose().covariance, state().pose_correlation(*linearization), S});
   else
     management.missed(linearization->landmark);
 }
 
-/// Inflates the pose covariance by a motion, and gates again what was refused.
+/// Moves the robot, or makes its pose less sure, and gates again all that was gated or accepted.
 void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation> observations) {
   map_.state().predict(added_motion);
   for (std::size_t i = 0; i < observations.size(); ++i)
@@ -199,7 +205,7 @@ void EkfSlam::gate_again(const Motion& added_motion, std::span<const Observation
 void EkfSlam::isolate_faults(std::span<const Observation> observations) {
   faults_.review(observations, innovations_, map_.table());
   if (!faults_.wants_relocation()) return;
-  faults_.relocate(map_.save(), state().active().pose().T_world_robot, innovations_,
+  faults_.relocate([this] { return map_.save(); }, state().active().pose().T_world_robot, innovations_,
                    [&](const Motion& motion) { gate_again(motion, observations); });
 }
 

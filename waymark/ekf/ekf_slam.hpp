@@ -55,7 +55,7 @@ class EkfSlam final : public Filter {
   void hold_landmarks();
 
   /// Puts the robot somewhere else, as sure of it as the covariance says.
-  void place_robot(const PoseEstimate& pose) { map_.state().place_robot(pose); }
+  void place_robot(const PoseEstimate& pose);
 
   void predict(const Motion& motion) override;
   const Correction& correct(std::span<const Observation> observations) override;
@@ -67,8 +67,6 @@ class EkfSlam final : public Filter {
   [[nodiscard]] std::optional<CalibrationEstimate> calibration() const override;
 
   [[nodiscard]] const ekf::CompressedState& state() const { return map_.state(); }
-  /// What it found of lost robots and wrong landmarks.
-  [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// Pairs of landmarks that turned out to be one.
   [[nodiscard]] int merges() const { return merges_; }
 

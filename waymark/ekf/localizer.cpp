@@ -16,7 +16,6 @@ constexpr int kMaxDoubt = 20;
 constexpr int kMinKnown = 3;
 constexpr int kMinUnknown = 5;
 constexpr int kMinAhead = 2;
-constexpr int kTimesToBeSure = 2;      // that a landmark is seen, of its identity
 constexpr int kContradictions = 3;     // pairs of landmarks
 constexpr double kLongEnough_s = 8.0;  // of driving without a pose
 // Of the belief that the first update starts from: as good as nothing is known.
@@ -95,9 +94,10 @@ const Correction& Localizer::search_pose(std::span<const Observation> observatio
 }
 
 void Localizer::remember(const Observation& observation) {
-  if (!local_map_.locate(observation)) return;
-  ++observations_;
-  local_map_.observe(observation);
+  if (const auto seen = local_map_.locate(observation)) {
+    ++observations_;
+    local_map_.observe(*seen);
+  }
 }
 
 /// Landmarks seen that the map may have.
@@ -142,8 +142,8 @@ std::string Localizer::reason(const PoseCandidates& found) const {
 
 FilterHealth Localizer::health() const {
   FilterHealth health = ekf_.health();
-  health.recoveries += losses_;
-  health.lost = !located_;
+  health.recoveries += located_ ? losses_ : std::max(0, losses_ - 1);
+  health.lost |= !located_;
   return health;
 }
 

@@ -14,7 +14,6 @@ struct PoseObservation {
   Eigen::Matrix3d P_pose;
   Eigen::Matrix<double, 3, 2> C_pose;
   Eigen::Matrix2d S;
-  Eigen::Matrix<double, 2, 3> H_pose;
 };
 
 /// What the observation tells about the pose: 1/2 log(|P| / |P - C S^-1 C^T|) nats, never negative, the same

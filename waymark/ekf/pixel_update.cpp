@@ -101,7 +101,7 @@ std::size_t PixelUpdate::collect(std::span<const FoundPixel> found, std::size_t 
     linearizations_.push_back(linearization);
     nus_.push_back(linearization.nu);
     pose_observations_.push_back(
-        {state.pose().covariance, state.pose_correlation(linearization), compared->S, linearization.H_pose});
+        {state.pose().covariance, state.pose_correlation(linearization), compared->S});
   }
   return next;
 }

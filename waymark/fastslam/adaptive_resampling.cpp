@@ -20,7 +20,7 @@ void AdaptiveResampling::resample(Belief& belief) {
   const bool has_moved = std::exchange(belief.has_moved, false);
   if (!has_moved || effective_particles(particles.weights()) >= resample_below_ * particles.count()) return;
   const double u = RandomStream(belief.seed, StreamPurpose::kResampling, belief.steps).uniform();
-  belief.resample(resampling_.choose_ancestors(particles.weights(), u, particles.weights().size()));
+  belief.resample(resampling_.choose_ancestors(particles.weights(), u));
   ++resamplings_;
 }
 

@@ -127,12 +127,14 @@ void FastSlam::gate() {
 void FastSlam::isolate_faults() {
   faults_.review(scan_.observations, scan_.innovations, belief_.landmarks);
   if (!faults_.wants_relocation()) return;
-  belief_.has_moved = true;
-  faults_.relocate(save(), pose().T_world_robot, scan_.innovations, [this](const Motion& motion) {
-    belief_.pending = compose(belief_.pending, motion);
-    for (std::size_t i = 0; i < scan_.size(); ++i)
-      if (scan_.is(i, Outcome::kGated) || scan_.is(i, Outcome::kMatched)) gate_.judge(i, scan_, belief_);
-  });
+  faults_.relocate([this] { return save(); }, pose().T_world_robot, scan_.innovations,
+                   [this](const Motion& motion) {
+                     belief_.has_moved = true;
+                     belief_.pending = compose(belief_.pending, motion);
+                     for (std::size_t i = 0; i < scan_.size(); ++i)
+                       if (scan_.is(i, Outcome::kGated) || scan_.is(i, Outcome::kMatched))
+                         gate_.judge(i, scan_, belief_);
+                   });
 }
 
 /// A landmark that is not where the map has it is removed, and added where it is seen, unless it may be

@@ -65,8 +65,6 @@ class FastSlam final : public Filter {
   [[nodiscard]] const fastslam::RangeCalibration& range_calibration() const { return belief_.calibration; }
   /// How often the set was resampled.
   [[nodiscard]] std::int64_t resamplings() const { return resampling_.resamplings(); }
-  /// What it found of lost robots and wrong landmarks.
-  [[nodiscard]] const FaultIsolation& faults() const { return faults_; }
   /// How many observations of unknown identity the particles did not agree on.
   [[nodiscard]] std::int64_t splits() const { return unknown_ ? unknown_->matcher.splits() : 0; }
 

@@ -58,7 +58,7 @@ class LandmarkStore {
   /// The landmark's two numbers now are (x, y): its anchors are forgotten.
   void become_point(int landmark);
 
-  /// Particle i takes over the map of ancestors[i]; there are as many particles as ancestors from now on.
+  /// Particle i takes over the map of ancestors[i].
   void resample(std::span<const std::int32_t> ancestors);
 
   /// What one particle knows of a landmark, without gathering it: hypotheses as one Gaussian of the same

@@ -19,12 +19,11 @@ class Resampling {
   /// `blocks` must outlive it.
   explicit Resampling(ParticleBlocks& blocks);
 
-  /// For each of `count` new particles the one that it becomes a copy of. Weights, one per particle of the
-  /// blocks, are >= 0 with a positive sum W; `u` is uniform in [0, 1). Particle i gets floor or ceil of count
-  /// w_i / W offspring, count w_i / W on average. One that has any keeps its own place, if there still is
-  /// such a place: ancestors[ancestors[i]] == ancestors[i]. Valid until the next call. O(N).
-  [[nodiscard]] std::span<const std::int32_t> choose_ancestors(std::span<const double> weights, double u,
-                                                               std::size_t count);
+  /// For each new particle the one that it becomes a copy of. Weights, one per particle of the
+  /// blocks, are >= 0 with a positive sum W; `u` is uniform in [0, 1). Particle i gets floor or ceil of N w_i
+  /// / W offspring, N w_i / W on average. One that has any keeps its own place:
+  /// ancestors[ancestors[i]] == ancestors[i]. Valid until the next call. O(N).
+  [[nodiscard]] std::span<const std::int32_t> choose_ancestors(std::span<const double> weights, double u);
 
  private:
   /// What the blocks before one hold.
@@ -34,12 +33,10 @@ class Resampling {
     std::size_t further = 0;  ///< offspring that need another place
   };
 
-  void count_offspring(std::span<const double> weights, double u, std::size_t count);
-  void list_vacant(std::size_t count);
-  void assign_ancestors(std::size_t count);
-  [[nodiscard]] bool keeps_place(std::size_t i, std::size_t count) const {
-    return i < count && offspring_[i] > 0;
-  }
+  void count_offspring(std::span<const double> weights, double u);
+  void list_vacant();
+  void assign_ancestors();
+  [[nodiscard]] bool keeps_place(std::size_t i) const { return offspring_[i] > 0; }
 
   ParticleBlocks& blocks_;
   AlignedArray<std::int32_t> offspring_;

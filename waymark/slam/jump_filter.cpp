@@ -153,12 +153,13 @@ auto JumpFilter<Value>::continued(Stamp stamp, const Value& raw) const -> Contin
 }
 
 template <class Value>
-void JumpFilter<Value>::add(Stamp stamp, const Value& raw) {
+const Value& JumpFilter<Value>::add(Stamp stamp, const Value& raw) {
   const Judgement judged = judge(stamp, raw);
   lowest_ = last_ ? lowest_.min(angles(raw)) : angles(raw);
   highest_ = last_ ? highest_.max(angles(raw)) : angles(raw);
   if (last_) settle(judged);
   last_ = judged.reading;
+  return last_->value;
 }
 
 /// Counts what a reading is, and what it makes of those before.

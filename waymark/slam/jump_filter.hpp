@@ -41,7 +41,8 @@ class JumpFilter {
 
   /// The next reading, at or after the stamp of the last one added.
   [[nodiscard]] Continued continued(Stamp stamp, const Value& raw) const;
-  void add(Stamp stamp, const Value& raw);
+  /// Takes it in, and returns what continued() says that it is.
+  const Value& add(Stamp stamp, const Value& raw);
 
   [[nodiscard]] const OdometryJumps& jumps() const { return jumps_; }
 

@@ -171,13 +171,11 @@ bool Odometer::add(const Event& event) {
   } else if (const auto* steering = std::get_if<Steering>(&event.content)) {
     hold(event.stamp, *steering);
   } else if (const auto* wheels = std::get_if<WheelAngles>(&event.content)) {
-    const WheelAngles continued = wheel_jumps_.continued(event.stamp, *wheels).value;
-    wheel_jumps_.add(event.stamp, *wheels);
+    const WheelAngles continued = wheel_jumps_.add(event.stamp, *wheels);
     wheel_track_.add(event.stamp, continued);
     if (!wheels_now_) wheels_now_ = continued;
   } else if (const auto* pose = std::get_if<OdometryPose>(&event.content)) {
-    const Pose2 continued = pose_jumps_.continued(event.stamp, pose->T_odom_robot).value;
-    pose_jumps_.add(event.stamp, pose->T_odom_robot);
+    const Pose2 continued = pose_jumps_.add(event.stamp, pose->T_odom_robot);
     pose_track_.add(event.stamp, continued);
     if (!pose_now_) pose_now_ = continued;
   }
