@@ -120,6 +120,7 @@ grep -q '"associate": "jcbb"' out.txt || fail 'a log folder without identities i
 does run log -o whole
 grep -q '^verdict: ' <(head -n 1 out.txt) || fail 'run does not begin with its verdict'
 grep -q '"verdict"' whole/metrics.json || fail 'metrics.json has no verdict'
+grep -q '"lost_s": \[\]' whole/metrics.json || fail 'metrics.json does not say whether the robot was lost'
 for file in trajectory.tum trajectory_covariance.csv map.csv map.waymark config.yaml metrics.json report.html; do
   [ -s "whole/$file" ] || fail "run wrote no $file"
 done

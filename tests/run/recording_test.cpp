@@ -62,6 +62,21 @@ TEST_P(BothFilters, FollowTheStudyBetterThanTheWheelsAlone) {
   EXPECT_LT(filter_m, 0.5 * wheels_m);
 }
 
+TEST_P(BothFilters, SayWhenTheRobotWasLostAndFound) {
+  const auto run = record_study({"filter=" + GetParam(), "sim.laps=4", "sim.robot_carried_at_s=70",
+                                 "sim.robot_carried_m=2", "sim.robot_carried_deg=90"});
+  ASSERT_TRUE(run.ok());
+  const auto& lost = run->losses.lost();
+  ASSERT_FALSE(lost.empty());
+  const Stamp start = run->trajectory.front().stamp;
+  EXPECT_GT(to_seconds(lost[0].from - start), 70.0);
+  ASSERT_TRUE(lost[0].found.has_value());
+  EXPECT_LT(to_seconds(*lost[0].found - start), 100.0);
+  EXPECT_TRUE(std::ranges::any_of(run->notes, [](const std::string& line) {
+    return line.find("the robot was lost from") != std::string::npos;
+  }));
+}
+
 INSTANTIATE_TEST_SUITE_P(Filters, BothFilters, testing::Values("ekf", "fastslam"));
 
 TEST(Recording, KeepsWhatWasDoneWhenStopped) {

@@ -191,6 +191,7 @@ FilterHealth FaultIsolation::health() const {
   return {.false_firsts = false_firsts_,
           .carried = static_cast<int>(carried_.size()),
           .distrusted = static_cast<int>(distrusted_.size()),
+          .slips = slips_,
           .recoveries = recoveries_,
           .lost = lost_};
 }

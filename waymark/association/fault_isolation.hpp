@@ -57,7 +57,10 @@ class FaultIsolation {
   template <class Save, class Move>
   void relocate(const Save& save, const Pose2& T_world_robot, std::span<const Innovation> innovations,
                 const Move& move) {
-    if (slipped_) return inflate_until_accepted(innovations, move, kSlipInflations);
+    if (slipped_) {
+      ++slips_;
+      return inflate_until_accepted(innovations, move, kSlipInflations);
+    }
     const auto motion = find_motion(save(), T_world_robot);
     const bool has_places = std::ranges::any_of(contradictions_.all(), &Contradiction::placed);
     if (!motion && has_places) return;
@@ -107,6 +110,7 @@ class FaultIsolation {
   bool slipped_ = false;
   int contradicting_ = 0;  // observations that say that the robot is lost
   int asked_at_ = 0;       // value of that at the last relocation that was tried
+  int slips_ = 0;
   int recoveries_ = 0;
   int false_firsts_ = 0;
   std::vector<LandmarkId> carried_;

@@ -42,6 +42,19 @@ Json blocks_json(const Metrics& metrics) {
   return blocks;
 }
 
+/// When the robot slipped and was lost, in seconds since the start of the log; null: it still is.
+Json losses_json(const PoseLosses& losses, Stamp start) {
+  const auto since_start = [start](Stamp stamp) { return rounded(to_seconds(stamp - start)); };
+  Json slips = Json::array(), lost = Json::array();
+  std::size_t recoveries = 0;
+  for (const Stamp stamp : losses.slips()) slips.push_back(since_start(stamp));
+  for (const LostSpan& span : losses.lost()) {
+    lost.push_back({since_start(span.from), span.found ? Json(since_start(*span.found)) : Json(nullptr)});
+    recoveries += span.found ? 1 : 0;
+  }
+  return {{"slips", slips.size()}, {"slips_s", slips}, {"recoveries", recoveries}, {"lost_s", lost}};
+}
+
 Json relative_json(const std::vector<eval::RelativeError>& relative) {
   Json rows = Json::array();
   for (const auto& error : relative) {
@@ -153,8 +166,11 @@ Metrics make_metrics(const std::string& input, const Config& config, const Recor
   metrics.associate = setting(config, "associate");
   metrics.seed = config.seed;
   metrics.verdict = judge(gather_evidence(recording), truth ? truth->nees.mean : std::nullopt);
-  if (!recording.trajectory.empty())
-    metrics.duration_s = to_seconds(recording.trajectory.back().stamp - recording.trajectory.front().stamp);
+  metrics.losses = recording.losses;
+  if (!recording.trajectory.empty()) {
+    metrics.start = recording.trajectory.front().stamp;
+    metrics.duration_s = to_seconds(recording.trajectory.back().stamp - metrics.start);
+  }
   metrics.events = recording.counts.events;
   metrics.observations = recording.counts.observations;
   metrics.landmarks = recording.filter->snapshot().landmarks.size();
@@ -179,6 +195,7 @@ std::string to_json(const Metrics& m) {
             {"associate", m.associate},
             {"seed", m.seed},
             {"verdict", {{"level", name_of(m.verdict.level)}, {"reasons", m.verdict.reasons}}},
+            {"robot", losses_json(m.losses, m.start)},
             {"duration_s", rounded(m.duration_s)},
             {"events", m.events},
             {"observations", m.observations},

@@ -34,6 +34,8 @@ struct Metrics {
   std::string associate;
   std::uint64_t seed = 0;
   Verdict verdict;
+  PoseLosses losses;
+  Stamp start;  ///< of the log
   double duration_s = 0.0;
   std::int64_t events = 0;
   std::int64_t observations = 0;

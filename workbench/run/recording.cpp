@@ -72,6 +72,7 @@ void keep(Recording& recording, const Step& step, const FrontEnd* front_end) {
   if (step.image != nullptr && front_end != nullptr)
     recording.image_strip.add(step.stamp, *step.image, front_end->search_records(),
                               step.correction->innovations);
+  recording.losses.add(step.stamp, recording.filter->health());
   recording.steps.push_back({step.stamp, step.cpu});
   for (const Innovation& innovation : step.correction->innovations)
     recording.innovations.push_back({step.stamp, innovation});
@@ -164,6 +165,7 @@ std::vector<std::string> find_contradictions(const Recording& recording, const L
   if (recording.trajectory.empty()) return lines;
   const Stamp start = recording.trajectory.front().stamp;
   std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
+  std::ranges::move(describe(recording.losses, start), std::back_inserter(lines));
   std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));
   if (config.observe != Observe::kPixel)  // whose landmarks come and go
     std::ranges::move(describe_refused_landmarks(recording.innovations, start), std::back_inserter(lines));

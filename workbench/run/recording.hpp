@@ -15,6 +15,7 @@
 
 #include "workbench/run/config.hpp"
 #include "workbench/run/image_strip.hpp"
+#include "workbench/run/pose_losses.hpp"
 
 namespace waymark {
 
@@ -47,6 +48,7 @@ struct Recording {
   std::vector<FunctionBlocks::Row> blocks;      ///< of the filter, and of what looks into images for it
   ImageStrip image_strip;
   std::optional<Duration> frame_budget;  ///< of a step, where there is one
+  PoseLosses losses;                     ///< when the robot slipped or was lost
   PipelineCounts counts;
   std::optional<OdometryKind> odometry;  ///< what it is told in, if there is any
   vision::TrackerCounts tracker;         ///< of what looks into images
