@@ -26,8 +26,8 @@ if(WAYMARK_BUILD_WORKBENCH)
   waymark_dependency(WORKBENCH SQLite3)
   # Linked by their names: Debian's libmatio-dev has neither a CMake package nor a .pc that works without HDF5's own, and
   # its liblz4-dev and libzstd-dev have no CMake package that other systems have, too; what finds NLopt may find the package
-  # of its C++ interface instead.
-  foreach(library IN ITEMS matio lz4 zstd nlopt)
+  # of its C++ interface instead; the package of libcivetweb-dev asks for a program that is not in it.
+  foreach(library IN ITEMS matio lz4 zstd nlopt civetweb)
     find_library(WAYMARK_${library} ${library} REQUIRED)
     mark_as_advanced(WAYMARK_${library})
   endforeach()

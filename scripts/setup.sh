@@ -9,6 +9,7 @@ packages=(
   g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libhwy-dev libcli11-dev libfmt-dev libyaml-cpp-dev nlohmann-json3-dev
   libmatio-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpng-dev libjpeg-dev libnlopt-dev
+  libcivetweb-dev
   libapriltag-dev
 )
 opencv_packages=(libopencv-contrib-dev libopencv-calib3d-dev libopencv-videoio-dev)
@@ -16,6 +17,7 @@ dev_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev git python3
   libopenmpi-dev openmpi-bin
   python3-rosbag python3-nav-msgs python3-sensor-msgs python3-geometry-msgs lz4 zstd
+  gcc-avr avr-libc libsimavr-dev libelf-dev
   clang-format-14 clang-tidy-16 clangd-16 valgrind gcovr chromium fonts-dejavu-core
   doxygen
 )

@@ -18,6 +18,7 @@ using Work = std::function<Result<void>()>;
 
 /// Each adds its subcommand to `app`; parsing it sets `work`.
 void add_run(CLI::App& app, Work& work);
+void add_live(CLI::App& app, Work& work);
 void add_demo(CLI::App& app, Work& work);
 void add_sim(CLI::App& app, Work& work);
 void add_eval(CLI::App& app, Work& work);

@@ -90,6 +90,7 @@ int run_program(int argc, char** argv) {
   app.footer(kFooter);
   Work work;
   add_run(app, work);
+  add_live(app, work);
   add_demo(app, work);
   add_sim(app, work);
   add_eval(app, work);

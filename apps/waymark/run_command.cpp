@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "filter_flags.hpp"
 #include "workbench/logs/files.hpp"
 #include "workbench/report/results.hpp"
 
@@ -13,12 +14,7 @@ namespace {
 struct RunRequest {
   std::string input;
   std::string output = "waymark-out";
-  std::string filter;
-  std::string observe;
-  std::string associate;
-  std::string particles;
-  std::string map;
-  bool localize = false;
+  FilterFlags filter;
   bool smooth = false;
   TimeSpan span;
   SettingsFlags flags;
@@ -26,16 +22,8 @@ struct RunRequest {
 
   [[nodiscard]] UserSettings settings() const {
     UserSettings user = flags.settings();
-    const auto set = [&user](const char* flag, const char* key, const std::string& value) {
-      if (!value.empty()) user.flags.push_back({flag, key, value});
-    };
-    set("--filter", "filter", filter);
-    set("--observe", "observe", observe);
-    set("--associate", "associate", associate);
-    set("--particles", "fastslam.particles", particles);
-    set("--map", "map.file", map);
-    set("--localize", "map.localize", localize ? "true" : "");
-    set("--smooth", "smooth.run", smooth ? "true" : "");
+    filter.add_to(user);
+    if (smooth) user.flags.push_back({"--smooth", "smooth.run", "true"});
     return user;
   }
 };
@@ -76,23 +64,7 @@ void add_run(CLI::App& app, Work& work) {
       ->type_name("LOG");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
       ->type_name("OUT");
-  command->add_option("--filter", request->filter, "ekf (default) or fastslam")->type_name("NAME");
-  command
-      ->add_option("--observe", request->observe,
-                   "observations to use: range-bearing, range, bearing, pixel (corners in images) or markers "
-                   "(ArUco or AprilTag markers in images); default: chosen by the log")
-      ->type_name("KIND");
-  command
-      ->add_option("--associate", request->associate,
-                   "data association: known (by identity); for unknown identities nearest or jcbb (ekf), or "
-                   "ml (fastslam); default: chosen by the log")
-      ->type_name("HOW");
-  command->add_option("--map", request->map, "continue from a saved map (map.waymark), starting at its pose")
-      ->type_name("FILE");
-  command->add_flag(
-      "--localize", request->localize,
-      "keep the map of --map unchanged and estimate only the pose; the robot may start anywhere in it");
-  command->add_option("--particles", request->particles, "number of particles of FastSLAM")->type_name("N");
+  request->filter.add_to(*command);
   command->add_flag("--smooth", request->smooth,
                     "after the log has ended, also estimate path, map and calibration from all of it");
   command->add_option("--from", request->span.from_s, "seconds from the start of the log at which to begin")

@@ -57,6 +57,13 @@ class Source {
   /// order.
   [[nodiscard]] virtual Result<std::optional<Event>> next() = 0;
 
+  /// How events were processed in a session that is replayed.
+  struct Replay {
+    std::optional<Stamp> until;  ///< up to here before the event that next() gave last; empty: nothing yet
+  };
+  /// Nothing where the log does not say: its events are put in order as they come.
+  [[nodiscard]] virtual std::optional<Replay> replay() const { return std::nullopt; }
+
   /// What was skipped, mended or odd so far, one line each, with counts.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 

@@ -12,6 +12,8 @@ namespace waymark {
 [[nodiscard]] std::string_view camera_page();
 [[nodiscard]] std::string_view calibration_page();
 [[nodiscard]] std::string_view sensor_page();
+/// The monitor of a session, which asks its server for what it shows.
+[[nodiscard]] std::string_view live_page();
 
 inline constexpr std::string_view kPageDataMark = "<!-- data -->";
 

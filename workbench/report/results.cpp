@@ -18,6 +18,12 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
   return writer->close();
 }
 
+Result<void> write_path(const RunResult& result, const std::filesystem::path& folder) {
+  const Trajectory& trajectory = result.recording.trajectory;
+  if (auto written = write_trajectory(folder / "trajectory.tum", trajectory); !written) return written;
+  return write_pose_covariances(folder / "trajectory_covariance.csv", trajectory);
+}
+
 Result<void> write_maps(const RunResult& result, const std::filesystem::path& folder) {
   const Snapshot snapshot = result.recording.filter->snapshot();
   if (auto written = write_map_csv(folder / "map.csv", snapshot); !written) return written;
@@ -58,14 +64,10 @@ Result<RunResult> run_log(const std::string& input, const UserSettings& user, co
 }
 
 Result<void> write_results(const RunResult& result, const std::filesystem::path& folder,
-                           const std::string& command) {
+                           const std::string& command, bool with_trajectory) {
   if (auto made = ensure_output_folder(folder); !made) return made;
-  if (auto written = write_trajectory(folder / "trajectory.tum", result.recording.trajectory); !written)
-    return written;
-  if (auto written =
-          write_pose_covariances(folder / "trajectory_covariance.csv", result.recording.trajectory);
-      !written)
-    return written;
+  if (with_trajectory)
+    if (auto written = write_path(result, folder); !written) return written;
   if (auto written = write_maps(result, folder); !written) return written;
   if (auto written = write_smoothed(result, folder); !written) return written;
   if (auto written = write_calibration(result, folder); !written) return written;

@@ -22,8 +22,8 @@ struct RunResult : study::ScoredRun {
 /// Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json and
 /// report.html into `folder`; of a smoothed run trajectory_smoothed.tum and map_smoothed.csv, too, and
 /// calibration.yaml where one was estimated.
-/// `command` is what the report says it came from.
+/// `command` is what the report says it came from. A session has written its trajectory already.
 [[nodiscard]] Result<void> write_results(const RunResult& result, const std::filesystem::path& folder,
-                                         const std::string& command);
+                                         const std::string& command, bool with_trajectory = true);
 
 }  // namespace waymark

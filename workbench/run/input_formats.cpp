@@ -3,6 +3,7 @@
 #include <array>
 
 #include "workbench/bags/bag_source.hpp"
+#include "workbench/bags/live_recording.hpp"
 #include "workbench/bags/open_bag.hpp"
 #include "workbench/datasets/car_park.hpp"
 #include "workbench/datasets/lost_in_the_woods.hpp"
@@ -33,6 +34,9 @@ Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, cons
 
 std::span<const InputFormat> input_formats() {
   static const std::array kFormats{
+      InputFormat{"a recording of `waymark live`", "an .mcap file that it wrote", Place::kFile,
+                  is_live_recording,
+                  [](const fs::path& path, const InputOptions&) { return open_live_recording(path); }},
       InputFormat{"a ROS bag", "a bag's metadata.yaml, or its .db3 or .mcap files", Place::kEither,
                   bag::is_bag,
                   [](const fs::path& path, const InputOptions& options) {
