@@ -1,5 +1,7 @@
 #include "waymark/models/camera.hpp"
 
+#include <random>
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -138,6 +140,31 @@ TEST(Camera, PoseIsThatOfTheMountOnTheRobotWithItsDerivatives) {
     EXPECT_TRUE(matrix_near(pose.dR_camera_world_dth * Eigen::Vector3d(1.0, 2.0, 3.0),
                             numeric_jacobian(turned_of, th), 1e-7));
   }
+}
+
+/// All rotations, those at the poles of roll, pitch and yaw among them, and with few digits.
+TEST(CameraMount, ExpressesEveryRotation) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto expect_same = [](const Eigen::Quaterniond& q) {
+    const Eigen::Matrix3d R = q.normalized().toRotationMatrix();
+    const CameraMount mount = camera_mount(R, {1.0, 2.0, 3.0});
+    ASSERT_LT((mount.R_robot_camera() - R).cwiseAbs().maxCoeff(), 2e-9) << q.coeffs().transpose();
+    ASSERT_EQ(mount.p_robot_camera(), Eigen::Vector3d(1.0, 2.0, 3.0));
+  };
+  for (int i = 0; i < 10'000; ++i)
+    expect_same({normal(random), normal(random), normal(random), normal(random)});
+  const Eigen::Quaterniond ahead(CameraMount{}.R_robot_camera());
+  for (const double pitch_deg : {-90.0, 90.0})
+    for (int yaw_deg = -180; yaw_deg <= 180; yaw_deg += 15)
+      for (const double off_rad : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6, 1e-4}) {
+        const Eigen::Quaterniond q =
+            Eigen::AngleAxisd(to_radians(yaw_deg), Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(to_radians(pitch_deg) + off_rad, Eigen::Vector3d::UnitY()) * ahead;
+        expect_same(q);
+        const Eigen::Vector4d rounded = (q.coeffs() * 1e3).array().round();
+        expect_same(Eigen::Quaterniond(rounded));
+      }
 }
 
 }  // namespace

@@ -28,6 +28,19 @@ Eigen::Matrix3d CameraMount::R_robot_camera() const {
          about(roll_deg, Eigen::Vector3d::UnitX()) * ahead;
 }
 
+CameraMount camera_mount(const Eigen::Matrix3d& R_robot_camera, const Eigen::Vector3d& p_robot_camera) {
+  constexpr double kPole = 1e-9;  // of the cosine of the pitch: the error that it makes
+  const Eigen::Matrix3d R = R_robot_camera * CameraMount{}.R_robot_camera().transpose();
+  const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
+  const bool is_at_pole = cos_pitch < kPole;
+  return {.x_m = p_robot_camera.x(),
+          .y_m = p_robot_camera.y(),
+          .z_m = p_robot_camera.z(),
+          .roll_deg = is_at_pole ? 0.0 : to_degrees(std::atan2(R(2, 1), R(2, 2))),
+          .pitch_deg = to_degrees(std::atan2(-R(2, 0), cos_pitch)),
+          .yaw_deg = to_degrees(is_at_pole ? std::atan2(-R(0, 1), R(1, 1)) : std::atan2(R(1, 0), R(0, 0)))};
+}
+
 Camera::Camera(const CameraOptions& options)
     : options_(options),
       R_camera_robot_(options.mount.R_robot_camera().transpose()),

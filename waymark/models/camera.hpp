@@ -24,6 +24,11 @@ struct CameraMount {
   [[nodiscard]] Eigen::Matrix3d R_robot_camera() const;
 };
 
+/// The mount of a camera that is there. Straight up or down roll and yaw are one turn, which then is the yaw.
+/// Every rotation comes back from R_robot_camera() to 1e-9.
+[[nodiscard]] CameraMount camera_mount(const Eigen::Matrix3d& R_robot_camera,
+                                       const Eigen::Vector3d& p_robot_camera);
+
 /// "Plumb bob" lens distortion as in ROS camera_info: radial k1, k2, k3 and tangential p1, p2.
 struct Distortion {
   double k1 = 0.0;

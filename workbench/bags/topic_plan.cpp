@@ -11,6 +11,7 @@
 #include "workbench/bags/camera_messages.hpp"
 #include "workbench/bags/detection_messages.hpp"
 #include "workbench/bags/image_messages.hpp"
+#include "workbench/bags/mount_plan.hpp"
 #include "workbench/bags/odometry_messages.hpp"
 #include "workbench/logs/camera_yaml.hpp"
 #include "workbench/logs/number_text.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr int kImageOrder = 3;
+constexpr Duration kTransformTime = std::chrono::seconds(10);
 
 /// What a topic can be used for.
 struct Role {
@@ -34,8 +36,9 @@ int detection_rank(const Topic& topic) { return is_detection(topic.type) ? 0 : -
 int outline_rank(const Topic& topic) { return is_outline(topic.type) ? 0 : -1; }
 int camera_rank(const Topic& topic) { return topic.type == kCameraInfo ? 0 : -1; }
 int transform_rank(const Topic& topic) {
-  return topic.type == kTransforms && topic.name.ends_with("tf_static") ? 0 : -1;
+  return topic.type == kTransforms || topic.type == kOldTransforms ? 0 : -1;
 }
+bool is_static(const Topic& topic) { return topic.name.ends_with("tf_static"); }
 int image_rank(const Topic& topic) {
   return is_image(topic.type) ? (topic.type.ends_with("/Image") ? 0 : 1) : -1;
 }
@@ -61,7 +64,7 @@ class Planner {
     look_at_transforms();
     if (auto done = choose_motion(); !done) return done.error();
     if (auto done = choose_images(); !done) return done.error();
-    settle_mount();
+    if (auto done = settle_mount(); !done) return done.error();
     if (auto done = choose_detections(); !done) return done.error();
     if (auto done = choose_truth(); !done) return done.error();
     settle_info();
@@ -98,12 +101,23 @@ class Planner {
     }
   }
 
+  /// All of tf_static; of tf, which goes on and on, the first seconds, in which what is fixed shows.
   void look_at_transforms() {
+    read_transforms([](const Topic& topic) { return is_static(topic) ? transform_rank(topic) : -1; },
+                    std::nullopt);
+    read_transforms([](const Topic& topic) { return is_static(topic) ? -1 : transform_rank(topic); },
+                    kTransformTime);
+  }
+
+  void read_transforms(const std::function<int(const Topic&)>& rank, std::optional<Duration> time) {
     std::vector<bool> wanted(topics().size(), false);
-    for (const std::size_t place : fit(transform_rank)) wanted[place] = true;
+    for (const std::size_t place : fit(rank)) wanted[place] = true;
     if (std::ranges::count(wanted, true) == 0) return;
     bag_.rewind(std::move(wanted));
+    std::optional<Stamp> first;
     while (const auto message = bag_.next()) {
+      if (!first) first = message->recorded;
+      if (time && message->recorded - *first > *time) return;
       frames_.add(topics()[message->topic], message->bytes);
       uses_[message->topic] = "transforms between frames";
     }
@@ -174,7 +188,8 @@ class Planner {
     if (!*place) return {};
     const Topic& topic = topics()[**place];
     if (topic.type == "nav_msgs/Odometry")
-      robot_frame_ = read_frame(topic, first_[**place], "child_frame_id");
+      robot_frames_ = {read_frame(topic, first_[**place], "child_frame_id"),
+                       read_frame(topic, first_[**place], "header.frame_id")};
     if (topic.type == "geometry_msgs/Twist")
       plan_.notes.push_back(topic.name +
                             " has no stamps and may contain commands instead of measured motion");
@@ -188,7 +203,6 @@ class Planner {
     const Role role{"images", "input.image_topic", kImageOrder, image_rank, image_reader};
     const auto place = choose(role, options_.image_topic);
     if (!place) return place.error();
-    if (*place) camera_frame_ = read_frame(topics()[**place], first_[**place], "header.frame_id");
     if (!options_.camera_file.empty()) return take_camera_file();
     return choose_camera(*place ? topics()[**place].name : "");
   }
@@ -237,30 +251,42 @@ class Planner {
     }
   }
 
-  /// The user's word, else that of tf_static, else the camera looks ahead.
-  void settle_mount() {
-    if (camera_frame_.empty())
-      for (const auto& rank : {detection_rank, outline_rank})
-        for (const std::size_t place : fit(rank))
-          if (camera_frame_.empty() && first_.contains(place))
-            camera_frame_ = read_frame(topics()[place], first_[place], "header.frame_id");
+  /// The user's word, else that of the transforms, else the camera looks ahead.
+  Result<void> settle_mount() {
+    std::optional<std::size_t> place;
+    for (const auto& [used, topic] : plan_.used)
+      if (topic.order == kImageOrder) place = used;
+    for (const auto& rank : {detection_rank, outline_rank})
+      if (const auto places = fit(rank); !place && !places.empty()) place = places[0];
     mount_ = options_.mount;
-    if (mount_) return;
-    if (const auto T_robot_camera = camera_on_robot()) {
-      mount_ = to_mount(*T_robot_camera);
-      add_mount_settings();
-    }
+    if (mount_ || !place) return {};
+    const std::string& topic = topics()[*place].name;
+    auto planned = plan_mount(frames_, robot_frames_, frame_of(*place), topic);
+    if (!planned) return Error{fmt::format("{}: {}: {}", plan_.info.name, topic, planned.error().message)};
+    camera_frame_ = planned->frame;
+    plan_.notes.insert(plan_.notes.end(), planned->notes.begin(), planned->notes.end());
+    if (!planned->T_robot_frame) return {};
+    mount_ = camera_mount(planned->T_robot_frame->linear(), planned->T_robot_frame->translation());
+    add_mount_settings();
+    return {};
   }
 
-  /// Its height is above base_footprint, which is on the ground, where that is known.
-  [[nodiscard]] std::optional<Eigen::Isometry3d> camera_on_robot() const {
-    const auto on_ground = frames_.find("base_footprint", camera_frame_);
-    for (const std::string& frame : {robot_frame_, std::string("base_footprint"), std::string("base_link")}) {
-      auto T = frame.empty() ? std::nullopt : frames_.find(frame, camera_frame_);
-      if (T && on_ground) T->translation().z() = on_ground->translation().z();
-      if (T) return T;
+  /// The frame in which a topic tells what it sees: that nearest to the detection, which may stand in each,
+  /// and which the first message may lack.
+  std::string frame_of(std::size_t place) {
+    constexpr int kMostMessages = 200;
+    std::vector<bool> wanted(topics().size(), false);
+    wanted[place] = true;
+    bag_.rewind(std::move(wanted));
+    const Topic& topic = topics()[place];
+    for (int i = 0; i < kMostMessages; ++i) {
+      const auto message = bag_.next();
+      if (!message) break;
+      for (const char* field :
+           {"markers.header.frame_id", "detections.pose.header.frame_id", "header.frame_id"})
+        if (std::string frame = read_frame(topic, message->bytes, field); !frame.empty()) return frame;
     }
-    return std::nullopt;
+    return "";
   }
 
   void add_setting(const char* key, double value) {
@@ -292,7 +318,7 @@ class Planner {
     add_setting("sensor.yaw_deg", mount.yaw_deg);
     if (!mount_)
       plan_.notes.push_back(fmt::format(
-          "no tf_static has the position of the camera {} on the robot; it is assumed at the robot's origin, "
+          "no transform has the position of the camera {} on the robot; it is assumed at the robot's origin, "
           "looking ahead; set camera.mount_x_m, camera.mount_yaw_deg etc. if it is not",
           camera_frame_));
     return {};
@@ -364,7 +390,7 @@ class Planner {
   std::map<std::size_t, std::string> first_;  // messages
   std::map<std::size_t, std::string> uses_;
   FrameTree frames_;
-  std::string robot_frame_;
+  RobotFrames robot_frames_;
   std::string camera_frame_;
   std::optional<CameraMount> mount_;
   bool has_detections_ = false;
