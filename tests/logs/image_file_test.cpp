@@ -15,6 +15,7 @@ namespace {
 using test::TempFolder;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 GreyImage slopes(int width_px, int height_px) {
   GreyImage image(width_px, height_px);
@@ -23,7 +24,11 @@ GreyImage slopes(int width_px, int height_px) {
   return image;
 }
 
-std::string jpeg_bytes(const GreyImage& image) {
+enum class JpegKind { kBaseline, kProgressive };
+
+/// Rows of samples, as many to a pixel as the colours of the file have.
+std::string jpeg_bytes(const GreyImage& samples, J_COLOR_SPACE colours, J_COLOR_SPACE stored, JpegKind kind) {
+  const int channels = colours == JCS_CMYK ? 4 : 1;
   jpeg_compress_struct jpeg{};
   jpeg_error_mgr errors{};
   jpeg.err = jpeg_std_error(&errors);
@@ -31,15 +36,17 @@ std::string jpeg_bytes(const GreyImage& image) {
   unsigned char* memory = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&jpeg, &memory, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(image.width_px());
-  jpeg.image_height = static_cast<JDIMENSION>(image.height_px());
-  jpeg.input_components = 1;
-  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg.image_width = static_cast<JDIMENSION>(samples.width_px() / channels);
+  jpeg.image_height = static_cast<JDIMENSION>(samples.height_px());
+  jpeg.input_components = channels;
+  jpeg.in_color_space = colours;
   jpeg_set_defaults(&jpeg);
+  jpeg_set_colorspace(&jpeg, stored);
+  if (kind == JpegKind::kProgressive) jpeg_simple_progression(&jpeg);
   jpeg_set_quality(&jpeg, 95, TRUE);
   jpeg_start_compress(&jpeg, TRUE);
-  GreyImage copy = image;
-  for (int v = 0; v < image.height_px(); ++v) {
+  GreyImage copy = samples;
+  for (int v = 0; v < samples.height_px(); ++v) {
     JSAMPROW row = &copy(0, v);
     jpeg_write_scanlines(&jpeg, &row, 1);
   }
@@ -48,6 +55,10 @@ std::string jpeg_bytes(const GreyImage& image) {
   std::string bytes(reinterpret_cast<const char*>(memory), size);
   std::free(memory);
   return bytes;
+}
+
+std::string jpeg_bytes(const GreyImage& image) {
+  return jpeg_bytes(image, JCS_GRAYSCALE, JCS_GRAYSCALE, JpegKind::kBaseline);
 }
 
 std::string error_of(const Result<GreyImage>& image) {
@@ -84,6 +95,46 @@ TEST(ImageFile, JpegGivesBackAlmostThePixels) {
     for (int u = 0; u < 40; ++u) EXPECT_NEAR((*read)(u, v), image(u, v), 4);
 }
 
+TEST(ImageFile, ReadsProgressiveJpeg) {
+  const GreyImage image(40, 24, 90);
+  const auto read =
+      decode_image(jpeg_bytes(image, JCS_GRAYSCALE, JCS_GRAYSCALE, JpegKind::kProgressive), "a.jpg");
+  ASSERT_TRUE(read.ok()) << error_of(read);
+  EXPECT_NEAR((*read)(20, 12), 90, 1);
+}
+
+TEST(ImageFile, ReadsPrintingInksWhereOfNoneIs255) {
+  // Cyan, magenta, yellow and black of one colour everywhere: (1 - c) (1 - k) of the light is left.
+  GreyImage samples(4 * 32, 16);
+  for (int v = 0; v < 16; ++v)
+    for (int u = 0; u < 32; ++u) {
+      samples(4 * u, v) = 200;
+      samples(4 * u + 1, v) = 100;
+      samples(4 * u + 2, v) = 50;
+      samples(4 * u + 3, v) = 153;
+    }
+  const int expected = (299 * 200 + 587 * 100 + 114 * 50) * 153 / 255 / 1000;
+  for (const J_COLOR_SPACE stored : {JCS_CMYK, JCS_YCCK})
+    for (const JpegKind kind : {JpegKind::kBaseline, JpegKind::kProgressive}) {
+      const auto read = decode_image(jpeg_bytes(samples, JCS_CMYK, stored, kind), "a.jpg", ImageSize{32, 16});
+      ASSERT_TRUE(read.ok()) << error_of(read);
+      for (int v = 0; v < 16; ++v)
+        for (int u = 0; u < 32; ++u) EXPECT_NEAR((*read)(u, v), expected, 3);
+    }
+}
+
+TEST(ImageFile, NamesTheKindsOfJpegThatItDoesNotRead) {
+  std::string differential = jpeg_bytes(slopes(16, 16));
+  const auto frame = differential.find("\xFF\xC0");
+  ASSERT_NE(frame, std::string::npos);
+  differential[frame + 1] = '\xC5';
+  EXPECT_THAT(error_of(decode_image(differential, "a.jpg")),
+              AllOf(HasSubstr("a.jpg: a kind of JPEG that is not supported"), Not(HasSubstr("damaged"))));
+  std::string deep = jpeg_bytes(slopes(16, 16));
+  deep[deep.find("\xFF\xC0") + 4] = 12;
+  EXPECT_THAT(error_of(decode_image(deep, "a.jpg")), HasSubstr("precision 12"));
+}
+
 TEST(ImageFile, ColourBecomesTheWeightedMean) {
   // One row: pure red, green and blue.
   static constexpr unsigned char kPng[] = {
@@ -106,12 +157,30 @@ TEST(ImageFile, PgmGivesBackThePixels) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(image->data()[i], static_cast<std::uint8_t>(pixels[std::size_t(i)]));
 }
 
+TEST(ImageFile, APgmIsScaledByItsWhite) {
+  const auto grey = decode_image(std::string("P5 3 1 100\n\0\x32\x64", 14), "a.pgm");
+  ASSERT_TRUE(grey.ok()) << error_of(grey);
+  EXPECT_EQ((*grey)(0, 0), 0);
+  EXPECT_EQ((*grey)(1, 0), 128);
+  EXPECT_EQ((*grey)(2, 0), 255);
+  // Two bytes each, the upper one first: 256 and 4095 of 4095, and of 65535, which says nothing.
+  for (const char* white : {"4095", "65535"}) {
+    const std::string head = std::string("P5 2 1 ") + white + "\n";
+    const auto deep = decode_image(head + std::string("\1\0\x0f\xff", 4), "a.pgm");
+    ASSERT_TRUE(deep.ok()) << error_of(deep);
+    EXPECT_EQ((*deep)(0, 0), 16) << white;
+    EXPECT_EQ((*deep)(1, 0), 255) << white;
+  }
+}
+
 TEST(ImageFile, DamagedPgmIsAnError) {
   EXPECT_THAT(error_of(decode_image("P5", "a")),
               HasSubstr("a: damaged PGM file: width, height and maximum grey value are missing"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 # 255", "a")),
               HasSubstr("width, height and maximum grey value are missing"));
-  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n", "a")), HasSubstr("the maximum grey value is 65535"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 65536\n", "a")), HasSubstr("the maximum grey value is 65536"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 0\n", "a")), HasSubstr("the maximum grey value is 0"));
+  EXPECT_THAT(error_of(decode_image("P5 3 2 65535\n12345678901", "a")), HasSubstr("is cut off"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 255\n12345", "a")), HasSubstr("is cut off"));
   EXPECT_THAT(error_of(decode_image("P5 -3 2 255\n", "a")), HasSubstr("each side must have"));
   EXPECT_THAT(error_of(decode_image("P5 3 2 255\n123456", "a", ImageSize{2, 3})),
@@ -124,6 +193,7 @@ TEST(ImageFile, WhatIsNoImageIsAnErrorThatSaysSo) {
               AllOf(HasSubstr("a.png"), HasSubstr("expected a PNG, JPEG or PGM")));
   EXPECT_THAT(error_of(read_image(folder.write("b.png", ""))), HasSubstr("is empty"));
   EXPECT_THAT(error_of(read_image(folder.path() / "none.png")), HasSubstr("No such file"));
+  EXPECT_THAT(error_of(decode_image(std::string_view("II*\0rest", 8), "c")), HasSubstr("c: is a TIFF image"));
 }
 
 TEST(ImageFile, AnotherSizeThanExpectedIsAnError) {

@@ -57,6 +57,24 @@ TEST(ImageLoader, SkipsAndCountsWhatCannotBeRead) {
   EXPECT_THAT(loader.notes()[0], HasSubstr("b.png"));
 }
 
+TEST(ImageLoader, ScalesASequenceByTheBitsOfTheCamera) {
+  const TempFolder folder;
+  write_frames(folder);
+  // 10 bits are seen first, 12 then, and in the dark third image they are still the camera's.
+  const std::string white = "P5 1 1 65535\n";
+  folder.write("images/a.png", white + "\3\xff");
+  folder.write("images/b.png", white + "\x0f\xff");
+  folder.write("images/c.png", white + "\3\xff");
+  ImageLoader loader(*open_log_folder(folder.path()));
+  const auto images = test::only<Image>(test::read_all(loader).events);
+  ASSERT_EQ(images.size(), 3U);
+  EXPECT_EQ((*images[0].second.pixels)(0, 0), 255);
+  EXPECT_EQ((*images[1].second.pixels)(0, 0), 255);
+  EXPECT_EQ((*images[2].second.pixels)(0, 0), 63);
+  ASSERT_EQ(loader.notes().size(), 1U);
+  EXPECT_THAT(loader.notes()[0], HasSubstr("uses 12 of 16 bits (largest value 4095)"));
+}
+
 TEST(ImageLoader, SkipsImagesOfAnotherSizeThanTheCameras) {
   const TempFolder folder;
   write_frames(folder);

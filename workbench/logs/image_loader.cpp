@@ -39,8 +39,8 @@ Result<std::optional<Event>> ImageLoader::next() {
 
 bool ImageLoader::load(Image& image) {
   if (image.pixels != nullptr) return true;
-  auto pixels =
-      image.encoded ? decode_image(*image.encoded, image.file, expected_) : read_image(image.file, expected_);
+  auto pixels = image.encoded ? decode_image(*image.encoded, image.file, expected_, bits_)
+                              : read_image(image.file, expected_, bits_);
   image.encoded.reset();
   if (pixels) {
     image.pixels = std::make_shared<const GreyImage>(*std::move(pixels));
@@ -52,6 +52,8 @@ bool ImageLoader::load(Image& image) {
 
 std::vector<std::string> ImageLoader::notes() const {
   std::vector<std::string> all = source_->notes();
+  if (const std::string bits = bits_.note(); !bits.empty())
+    all.push_back(fmt::format("images: the camera {}; their grey values are scaled accordingly", bits));
   if (skipped_ > 0)
     all.push_back(fmt::format("images skipped: {}, the first because: {}", skipped_, first_reason_));
   return all;

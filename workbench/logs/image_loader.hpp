@@ -11,7 +11,8 @@
 namespace waymark {
 
 /// A log whose images are read, or unpacked, when their turn comes, one at a time: gives each image event its
-/// pixels.
+/// pixels. Images of 16 bits a sample are scaled by the bits that the camera uses (UsedBits), and a note says
+/// so.
 /// Images that cannot be read and those of another size than the camera's are skipped and counted.
 class ImageLoader final : public Source {
  public:
@@ -28,6 +29,7 @@ class ImageLoader final : public Source {
 
   std::unique_ptr<Source> source_;
   std::optional<ImageSize> expected_;
+  UsedBits bits_;
   int skipped_ = 0;
   std::string first_reason_;
 };
