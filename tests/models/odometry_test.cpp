@@ -391,5 +391,25 @@ TEST(CheckCar, NamesTheKeyThatIsMissing) {
   EXPECT_TRUE(check(CarGeometry{}).error().message.starts_with("car.wheel_base_m "));
 }
 
+TEST(Odometry, ATurnKnownOtherwiseLeavesTheWayAndTheRestOfItsCovariance) {
+  const Motion told = velocity_motion({0.5, 0.4}, 1.0, {});
+  const Motion turned = turned_as_measured(told, 0.6, 1e-6, ArcModel::kExact);
+  EXPECT_NEAR(turned.increment.theta_rad, 0.6, 1e-12);
+  EXPECT_NEAR(arc_length_m(turned.increment, ArcModel::kExact), 0.5, 1e-12);
+  EXPECT_NEAR(turned.covariance(2, 2), 1e-6, 1e-12);
+  // Without the turn's error: what is left of x and y when it is known.
+  const Eigen::Vector3d with_turn = told.covariance.col(2) / told.covariance(2, 2);
+  const Eigen::Matrix3d given = told.covariance - told.covariance(2, 2) * with_turn * with_turn.transpose();
+  const Eigen::Matrix3d expected = given + 1e-6 * with_turn * with_turn.transpose();
+  EXPECT_LT((turned.covariance - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Odometry, ATurnOfARobotThatStandsIsOneOnTheSpot) {
+  const Motion turned = turned_as_measured({}, 0.1, 1e-6, ArcModel::kExact);
+  EXPECT_EQ(turned.increment.position(), Eigen::Vector2d::Zero());
+  EXPECT_NEAR(turned.increment.theta_rad, 0.1, 1e-12);
+  EXPECT_EQ(turned.covariance, Eigen::Matrix3d(Eigen::Vector3d(0.0, 0.0, 1e-6).asDiagonal()));
+}
+
 }  // namespace
 }  // namespace waymark

@@ -79,10 +79,16 @@ Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model) {
   return {p.x(), p.y(), wrap_angle(after_rad)};
 }
 
-Motion turned_as_measured(const Motion& motion, double turn_rad, const OdometryOptions& options) {
+Motion turned_as_measured(const Motion& motion, double turn_rad, double turn_var_rad2, ArcModel model) {
   Motion turned = motion;
-  turned.increment = turned_more(motion.increment, turn_rad - motion.increment.theta_rad, options.arc);
-  if (is_still(motion)) turned.covariance = slip_covariance({0.0, turn_rad}, options.noise, options.arc);
+  turned.increment = turned_more(motion.increment, turn_rad - motion.increment.theta_rad, model);
+  const double var = motion.covariance(2, 2);
+  if (var <= 0.0) {
+    turned.covariance(2, 2) = turn_var_rad2;
+    return turned;
+  }
+  const Eigen::Vector3d with_turn = motion.covariance.col(2) / var;
+  turned.covariance += (turn_var_rad2 - var) * with_turn * with_turn.transpose();
   return turned;
 }
 

@@ -87,10 +87,10 @@ struct ArcStep {
 /// The same arc if it turned so much more.
 [[nodiscard]] Pose2 turned_more(const Pose2& increment, double turn_rad, ArcModel model);
 
-/// The same way with the turn that a gyro measured. A robot that only turned slips as one does that turns on
-/// the spot; otherwise the covariance stays that of the odometry, whose turn is the less certain.
-[[nodiscard]] Motion turned_as_measured(const Motion& motion, double turn_rad,
-                                        const OdometryOptions& options);
+/// The same way with a turn that is known otherwise, with that variance: the covariance is that of the motion
+/// given its turn, and what the turn's own error makes of it.
+[[nodiscard]] Motion turned_as_measured(const Motion& motion, double turn_rad, double turn_var_rad2,
+                                        ArcModel model);
 
 /// Encoder increments to distance and turn (Vincke et al. 2012 \cite vincke2012, equation 5) and its Jacobian
 /// to (left, right) angles.

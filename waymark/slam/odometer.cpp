@@ -84,7 +84,7 @@ Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
     : options_(options),
       turn_bias_(options.standing),
       max_hold_(duration_from_seconds(max_hold_s)),
-      yaw_rate_(max_hold_),
+      gyro_(options.arc, max_hold_),
       wheel_jumps_(options.wheels),
       pose_jumps_(options.wheels) {}
 
@@ -93,9 +93,8 @@ Motion Odometer::advance(Stamp stamp, const Event* next, const Event* next_yaw_r
   if (held_) motion = advance_held(stamp);
   if (wheels_now_) motion = advance_wheels(stamp, next);
   if (pose_now_) motion = advance_pose(stamp, next);
-  if (track_ && gyro_)
-    if (const auto turn_rad = yaw_rate_.turn_rad(*now_, stamp, next_yaw_rate))
-      motion = turned_as_measured(motion, *turn_rad, options_);
+  if (track_ && gyro_track_)
+    motion = gyro_.hold_heading(motion, {*now_, stamp, stamp <= last_reading_ + max_hold_}, next_yaw_rate);
   if (!is_still(motion)) {
     motion.duration_s = to_seconds(stamp - *now_);
     take_bias_out(motion.increment, motion.duration_s);
@@ -156,16 +155,19 @@ Motion Odometer::advance_pose(Stamp stamp, const Event* next) {
 }
 
 bool Odometer::follows(const Event& event) const {
-  return track_of(event) == (std::holds_alternative<YawRate>(event.content) ? gyro_ : track_);
+  return track_of(event) == (std::holds_alternative<YawRate>(event.content) ? gyro_track_ : track_);
 }
 
 bool Odometer::add(const Event& event) {
   const auto* yaw_rate = std::get_if<YawRate>(&event.content);
-  auto& followed = yaw_rate != nullptr ? gyro_ : track_;
+  auto& followed = yaw_rate != nullptr ? gyro_track_ : track_;
   if (!followed) followed = track_of(event);
   if (!follows(event)) return false;
   now_ = event.stamp;
-  if (yaw_rate != nullptr) yaw_rate_.add(event.stamp, *yaw_rate);
+  if (yaw_rate != nullptr)
+    gyro_.add(event.stamp, *yaw_rate);
+  else
+    last_reading_ = event.stamp;
   if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
     hold(event.stamp, *velocity);
   } else if (const auto* steering = std::get_if<Steering>(&event.content)) {

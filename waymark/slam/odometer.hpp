@@ -6,9 +6,9 @@
 
 #include "waymark/core/event.hpp"
 #include "waymark/models/odometry.hpp"
+#include "waymark/slam/gyro.hpp"
 #include "waymark/slam/jump_filter.hpp"
 #include "waymark/slam/turn_bias.hpp"
-#include "waymark/slam/yaw_rate_track.hpp"
 
 namespace waymark {
 
@@ -40,9 +40,8 @@ class SampledTrack {
 /// Turns whatever kind of odometry a log has into the motion between any two stamps. The first stream of
 /// odometry that appears counts; a log with two would otherwise move twice. Readings that no robot can follow
 /// (JumpFilter, SpeedFilter) make no motion: it goes on as before them, with noise that covers what was not
-/// measured. Where a gyro tells the yaw rate,
-/// its integral is the heading instead of the odometry's. Learns, whenever the robot stands, how its heading
-/// turns by itself, and takes that out.
+/// measured. Where a gyro tells the yaw rate, it holds the heading (Gyro). Learns, whenever the robot
+/// stands, how its heading turns by itself, and takes that out.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
@@ -58,7 +57,10 @@ class Odometer {
   /// first.
   [[nodiscard]] bool follows(const Event& event) const;
 
-  [[nodiscard]] bool has_yaw_rate() const { return gyro_.has_value(); }
+  [[nodiscard]] bool has_yaw_rate() const { return gyro_track_.has_value(); }
+
+  /// What the gyro is like.
+  [[nodiscard]] GyroFindings gyro() const { return gyro_.findings(); }
 
   /// Of the odometry so far, if there was any.
   [[nodiscard]] std::optional<OdometryKind> kind() const;
@@ -89,15 +91,16 @@ class Odometer {
   TurnBias turn_bias_;
   Duration max_hold_;
   std::optional<Track> track_;
-  std::optional<Track> gyro_;
+  std::optional<Track> gyro_track_;
   std::optional<Stamp> now_;
+  Stamp last_reading_;  // of the odometry
   int gaps_ = 0;
 
   std::optional<std::variant<Velocity, Steering>> held_;  // until the next one
   Stamp held_since_;
   bool held_is_measured_ = true;  // false: it is of before a reading that no robot can follow
   SpeedFilter speeds_;
-  YawRateTrack yaw_rate_;
+  Gyro gyro_;
   JumpFilter<WheelAngles> wheel_jumps_;
   JumpFilter<Pose2> pose_jumps_;
   SampledTrack<WheelAngles> wheel_track_;

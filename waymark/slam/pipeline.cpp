@@ -253,6 +253,7 @@ PipelineCounts Pipeline::counts() const {
   PipelineCounts counts = counts_;
   counts.odometry_gaps = odometer_.gaps();
   counts.odometry_jumps = odometer_.jumps();
+  counts.gyro = odometer_.gyro();
   return counts;
 }
 

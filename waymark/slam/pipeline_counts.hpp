@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "waymark/slam/gyro_findings.hpp"
 #include "waymark/slam/odometry_jumps.hpp"
 
 namespace waymark {
@@ -23,6 +24,7 @@ struct PipelineCounts {
   std::int64_t repeats = 0;          ///< images with the stamp or all the pixels of the one before
   int odometry_gaps = 0;
   OdometryJumps odometry_jumps;
+  GyroFindings gyro;
 };
 
 }  // namespace waymark
