@@ -8,6 +8,7 @@
 #include "support/io_support.hpp"
 
 #include "bags/wire.hpp"
+#include "workbench/bags/message_definition.hpp"
 
 namespace waymark {
 namespace {
@@ -23,10 +24,16 @@ using testing::Not;
 /// A bag in memory, whose messages are written as in ROS 1.
 class MadeBag final : public bag::Reader {
  public:
-  /// With the standard definition of the type.
+  /// With the known definition of the type, but headers without the number that ROS 1 gives them.
   std::size_t topic(std::string name, std::string type) {
-    summary_.topics.push_back(
-        {.name = std::move(name), .type = std::move(type), .encoding = Encoding::kRos1});
+    std::string definition;
+    for (const auto text : bag::known_definitions(type, Encoding::kRos1))
+      if (definition.empty())
+        definition = std::string(text) + "========\nMSG: std_msgs/Header\ntime stamp\nstring frame_id\n";
+    summary_.topics.push_back({.name = std::move(name),
+                               .type = std::move(type),
+                               .encoding = Encoding::kRos1,
+                               .definition = std::move(definition)});
     return summary_.topics.size() - 1;
   }
   void add(std::size_t topic, double recorded_s, std::string bytes) {

@@ -132,18 +132,66 @@ TEST(MessageDecoder, EndsSoonWhateverCountsAMessageNames) {
   EXPECT_FALSE(decoder->decode("").ok());
 }
 
-TEST(MessageDecoder, KnowsTheStandardTypesOfRos2) {
-  for (const char* type :
-       {"nav_msgs/Odometry", "sensor_msgs/JointState", "sensor_msgs/Image", "sensor_msgs/CameraInfo",
-        "sensor_msgs/CompressedImage", "geometry_msgs/PoseStamped", "geometry_msgs/TwistStamped",
-        "geometry_msgs/Twist", "tf2_msgs/TFMessage", "aruco_msgs/MarkerArray",
-        "aruco_opencv_msgs/ArucoDetection", "ros2_aruco_interfaces/ArucoMarkers"}) {
-    const auto fields =
-        parse_definition({.name = "/t", .type = type, .encoding = Encoding::kCdr, .definition = {}});
-    ASSERT_TRUE(fields.ok()) << fields.error().message;
-    EXPECT_FALSE(fields->empty());
+/// In CDR, which holds the forward speed 2.5.
+std::string twist_stamped() {
+  Wire wire(Encoding::kCdr);
+  wire.add<std::int32_t>(10).add<std::uint32_t>(0).text("base_link");
+  for (const double value : {2.5, 0.0, 0.0, 0.0, 0.0, 0.5}) wire.add(value);
+  return wire.bytes();
+}
+
+const WantedFields kSpeeds{{"twist.linear.x", "twist.angular.z"}, {}};
+
+Topic twists(std::string definition) {
+  return {.name = "/speed",
+          .type = "geometry_msgs/TwistStamped",
+          .encoding = Encoding::kCdr,
+          .definition = std::move(definition)};
+}
+
+TEST(MessageDecoder, TakesTheKnownDefinitionWhereThatInTheBagDoesNotServe) {
+  for (const char* stored :
+       {"module geometry_msgs { module msg { struct TwistStamped {}; }; };", "std_msgs/Header header\n",
+        "  \n", "std_msgs/Header header\nTwist twist\n========\nMSG: geometry_msgs/Twist\nVector3 linear\n",
+        "std_msgs/Header header\nfloat64 more\nTwist twist\n"}) {
+    auto decoder = MessageDecoder::make(twists(stored), kSpeeds);
+    ASSERT_TRUE(decoder.ok()) << decoder.error().message;
+    ASSERT_TRUE(decoder->decode(twist_stamped()).ok()) << stored;
+    EXPECT_EQ(decoder->number(0), 2.5) << stored;
+    EXPECT_EQ(decoder->number(1), 0.5) << stored;
+    EXPECT_THAT(decoder->note(),
+                HasSubstr("/speed: read by the released definition of geometry_msgs/TwistStamped"));
   }
-  EXPECT_THAT(standard_definition("sensor_msgs/Imu"), IsEmpty());
+  auto without = MessageDecoder::make(twists(""), kSpeeds);
+  ASSERT_TRUE(without.ok());
+  EXPECT_TRUE(without->decode(twist_stamped()).ok());
+  EXPECT_THAT(without->note(), IsEmpty());
+}
+
+TEST(MessageDecoder, StaysWithTheDefinitionInTheBagOverDamagedMessages) {
+  auto decoder = MessageDecoder::make(twists("std_msgs/Header header\nTwist twist\nfloat64 more\n"), kSpeeds);
+  ASSERT_TRUE(decoder.ok());
+  const std::string whole = twist_stamped() + std::string(8, '\0');
+  ASSERT_TRUE(decoder->decode(whole).ok());
+  EXPECT_FALSE(decoder->decode(std::string_view(whole).substr(0, 50)).ok());
+  EXPECT_TRUE(decoder->decode(whole).ok());
+  EXPECT_EQ(decoder->number(0), 2.5);
+  EXPECT_THAT(decoder->note(), IsEmpty());
+}
+
+TEST(MessageDecoder, ReadsAFieldByTheFirstNameThatTheDefinitionHas) {
+  const std::vector<WantedFields> choices{{{"", "twist.angle.z"}, {}},
+                                          {{"twist.linear.x", "twist.angular.z"}, {}}};
+  auto decoder = MessageDecoder::make_any(twists(""), choices);
+  ASSERT_TRUE(decoder.ok()) << decoder.error().message;
+  ASSERT_TRUE(decoder->decode(twist_stamped()).ok());
+  EXPECT_THAT(decoder->numbers(0), ElementsAre(2.5));
+  const std::vector<WantedFields> half{{{"", "twist.angular.z"}, {}}};
+  auto other = MessageDecoder::make_any(twists(""), half);
+  ASSERT_TRUE(other.ok());
+  ASSERT_TRUE(other->decode(twist_stamped()).ok());
+  EXPECT_THAT(other->numbers(0), IsEmpty());
+  EXPECT_THAT(other->numbers(1), ElementsAre(0.5));
 }
 
 }  // namespace

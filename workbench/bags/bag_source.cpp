@@ -78,6 +78,8 @@ class BagSource final : public Source {
     std::vector<std::string> all = bag_->notes();
     for (const auto& more : {plan_.notes, tally_.notes(), reasons_})
       std::ranges::copy(more, std::back_inserter(all));
+    for (const auto& [place, topic] : plan_.used)
+      std::ranges::move(topic.reader.notes(), std::back_inserter(all));
     return all;
   }
 

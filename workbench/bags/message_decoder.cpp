@@ -48,6 +48,14 @@ double number_at(const char* bytes, Primitive primitive, std::endian order) {
 
 bool is_byte_array(const Field& field) { return field.shape != Shape::kOne && size_of(field.primitive) == 1; }
 
+/// That a known definition is used although the bag has one; empty where it has none.
+std::string why_not_stored(const Topic& topic) {
+  if (topic.definition.empty()) return "";
+  return fmt::format(
+      "{}: read by the released definition of {}, because that in the bag lacks a field or does not fit",
+      topic.name, topic.type);
+}
+
 /// CDR lets a message end in bytes that only fill up.
 constexpr std::size_t kMaxPadding = 7;
 
@@ -56,15 +64,16 @@ constexpr std::size_t kMaxPadding = 7;
 /// One pass over one message. Every step takes bytes or is counted, so that no definition can make it long.
 class MessageDecoder::Walk {
  public:
-  Walk(MessageDecoder& decoder, std::string_view bytes)
+  Walk(MessageDecoder& decoder, const std::vector<Node>& nodes, std::string_view bytes)
       : decoder_(decoder),
+        nodes_(nodes),
         bytes_(bytes),
         is_cdr_(decoder.encoding_ == Encoding::kCdr),
         steps_left_(4096 + 8 * bytes.size()) {}
 
   Result<void> run() {
     if (is_cdr_ && !take_encapsulation()) return Error{"it does not start with a header of plain CDR"};
-    if (!message(decoder_.nodes_, false))
+    if (!message(nodes_, false))
       return Error{
           fmt::format("its {} bytes end or are invalid at byte {}, field {}", bytes_.size(), at_, field_)};
     if (bytes_.size() - at_ > (is_cdr_ ? kMaxPadding : 0))
@@ -153,6 +162,7 @@ class MessageDecoder::Walk {
   }
 
   MessageDecoder& decoder_;
+  const std::vector<Node>& nodes_;
   std::string_view bytes_;
   bool is_cdr_;
   std::endian order_ = std::endian::little;
@@ -162,23 +172,51 @@ class MessageDecoder::Walk {
 };
 
 Result<MessageDecoder> MessageDecoder::make(const Topic& topic, const WantedFields& wanted) {
-  const auto fields = parse_definition(topic);
-  if (!fields) return fields.error();
+  return make_any(topic, std::span(&wanted, 1));
+}
+
+Result<MessageDecoder> MessageDecoder::make_any(const Topic& topic, std::span<const WantedFields> choices) {
+  const auto layouts = layouts_of(topic);
+  if (!layouts) return layouts.error();
   MessageDecoder decoder;
   decoder.encoding_ = topic.encoding;
-  decoder.nodes_ = nodes_of(*fields);
-  decoder.numbers_.resize(wanted.numbers.size());
-  decoder.texts_.resize(wanted.texts.size());
-  const auto assign_all = [&](const std::vector<std::string>& paths, bool is_text) -> Result<void> {
-    for (std::size_t i = 0; i < paths.size(); ++i)
-      if (!assign(decoder.nodes_, paths[i], static_cast<int>(i), is_text))
-        return Error{fmt::format("{}: the definition of {} in the bag has no {} {}", topic.name, topic.type,
-                                 is_text ? "text" : "number", paths[i])};
-    return {};
-  };
-  if (auto done = assign_all(wanted.numbers, false); !done) return done.error();
-  if (auto done = assign_all(wanted.texts, true); !done) return done.error();
+  decoder.numbers_.resize(choices[0].numbers.size());
+  decoder.texts_.resize(choices[0].texts.size());
+  std::vector<const Layout*> taken;
+  std::string why_not;
+  for (const Layout& layout : *layouts) {
+    const bool is_known = std::ranges::any_of(
+        taken, [&layout](const Layout* other) { return have_same_wire(other->fields, layout.fields); });
+    if (is_known) continue;
+    auto nodes = nodes_with(layout.fields, choices);
+    if (!nodes) {
+      if (why_not.empty()) why_not = nodes.error().message;
+      continue;
+    }
+    decoder.candidates_.push_back({*std::move(nodes), layout.is_stored ? "" : why_not_stored(topic)});
+    taken.push_back(&layout);
+  }
+  if (taken.empty())
+    return Error{fmt::format("{}: the definition of {} in the bag {}", topic.name, topic.type, why_not)};
   return decoder;
+}
+
+Result<std::vector<MessageDecoder::Node>> MessageDecoder::nodes_with(const std::vector<Field>& fields,
+                                                                     std::span<const WantedFields> choices) {
+  std::string missing;
+  for (const WantedFields& wanted : choices) {
+    auto nodes = nodes_of(fields);
+    const auto first_missing = [&nodes](const std::vector<std::string>& paths, bool is_text) {
+      std::size_t i = 0;
+      while (i < paths.size() && assign(nodes, paths[i], static_cast<int>(i), is_text)) ++i;
+      return i < paths.size() ? fmt::format("has no {} {}", is_text ? "text" : "number", paths[i]) : "";
+    };
+    std::string lacks = first_missing(wanted.numbers, false);
+    if (lacks.empty()) lacks = first_missing(wanted.texts, true);
+    if (lacks.empty()) return nodes;
+    if (missing.empty()) missing = std::move(lacks);
+  }
+  return Error{missing};
 }
 
 std::vector<MessageDecoder::Node> MessageDecoder::nodes_of(const std::vector<Field>& fields) {
@@ -192,6 +230,7 @@ std::vector<MessageDecoder::Node> MessageDecoder::nodes_of(const std::vector<Fie
 }
 
 bool MessageDecoder::assign(std::vector<Node>& nodes, std::string_view path, int column, bool is_text) {
+  if (path.empty()) return true;
   const std::string_view name = path.substr(0, path.find('.'));
   const auto node =
       std::ranges::find_if(nodes, [name](const Node& n) { return same_letters(n.field.name, name); });
@@ -204,9 +243,18 @@ bool MessageDecoder::assign(std::vector<Node>& nodes, std::string_view path, int
 }
 
 Result<void> MessageDecoder::decode(std::string_view bytes) {
-  for (auto& column : numbers_) column.clear();
-  for (auto& column : texts_) column.clear();
-  return Walk(*this, bytes).run();
+  Result<void> done;
+  for (auto candidate = candidates_.begin(); candidate != candidates_.end(); ++candidate) {
+    for (auto& column : numbers_) column.clear();
+    for (auto& column : texts_) column.clear();
+    auto read = Walk(*this, candidate->nodes, bytes).run();
+    if (read) {
+      candidates_.erase(candidates_.begin(), candidate);
+      return read;
+    }
+    if (candidate == candidates_.begin()) done = std::move(read);
+  }
+  return done;
 }
 
 }  // namespace waymark::bag

@@ -111,7 +111,8 @@ class Parser {
   /// Without data where it is not known.
   [[nodiscard]] std::string_view text_of(const std::string& type) const {
     if (const auto found = texts_.find(type); found != texts_.end()) return found->second;
-    return standard_definition(type);
+    const auto known = known_definitions(type, topic_.encoding);
+    return known.empty() ? std::string_view{} : known.front();
   }
 
   [[nodiscard]] std::string full_name(std::string_view type, std::string_view package) const {
@@ -186,6 +187,28 @@ std::size_t size_of(Primitive primitive) {
 
 Result<std::vector<Field>> parse_definition(const Topic& topic) {
   return Parser(topic).fields_of(topic.type);
+}
+
+Result<std::vector<Layout>> layouts_of(const Topic& topic) {
+  std::vector<Layout> layouts;
+  auto stored = parse_definition(topic);
+  if (stored && !topic.definition.empty()) layouts.push_back({*stored, true});
+  for (const std::string_view text : known_definitions(topic.type, topic.encoding)) {
+    Topic known = topic;
+    known.definition = text;
+    if (auto fields = parse_definition(known)) layouts.push_back({*std::move(fields), false});
+  }
+  if (layouts.empty())
+    return stored ? Error{fmt::format("{}: the bag has no definition of {}", topic.name, topic.type)}
+                  : stored.error();
+  return layouts;
+}
+
+bool have_same_wire(const std::vector<Field>& a, const std::vector<Field>& b) {
+  return std::ranges::equal(a, b, [](const Field& x, const Field& y) {
+    return x.shape == y.shape && x.length == y.length && x.is_message == y.is_message &&
+           (x.is_message ? have_same_wire(x.fields, y.fields) : x.primitive == y.primitive);
+  });
 }
 
 }  // namespace waymark::bag

@@ -43,12 +43,26 @@ struct Field {
 };
 
 /// The fields of a topic's messages, by the definition that is stored in the bag: the .msg text of ROS 1 or
-/// 2, followed by those of the types that it is made of. Types that are not in there, and all of a topic
-/// without definition, are taken from those that every ROS knows. A `time` or `duration` is a message of
-/// `sec` and `nanosec`, in ROS 1, too.
+/// 2, followed by those of the types that it is made of. Types that are not in there are taken from the known
+/// ones. A `time` or `duration` is a message of `sec` and `nanosec`, in ROS 1, too.
 [[nodiscard]] Result<std::vector<Field>> parse_definition(const Topic& topic);
 
-/// The .msg text of a standard type in ROS 2; empty for one that is not known.
-[[nodiscard]] std::string_view standard_definition(std::string_view type);
+/// Fields that the messages of a topic may have.
+struct Layout {
+  std::vector<Field> fields;
+  bool is_stored = false;  ///< by the definition in the bag, not by a known one
+};
+
+/// What the messages of a topic may look like, the likeliest first: by the definition in the bag, where it
+/// can be read, and by all known versions of the type. Bags store definitions that are empty, cut off or in
+/// another language. An error: there is no layout at all.
+[[nodiscard]] Result<std::vector<Layout>> layouts_of(const Topic& topic);
+
+/// Do messages of both have the same bytes? Names do not count.
+[[nodiscard]] bool have_same_wire(const std::vector<Field>& a, const std::vector<Field>& b);
+
+/// The known definitions of a type as messages of that encoding have it, in the form of stored ones, the most
+/// common version first; none for a type that is not known.
+[[nodiscard]] std::vector<std::string_view> known_definitions(std::string_view type, Encoding encoding);
 
 }  // namespace waymark::bag

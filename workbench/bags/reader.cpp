@@ -6,10 +6,15 @@
 namespace waymark::bag {
 
 std::string plain_type(std::string_view type) {
-  constexpr std::string_view kMiddle = "/msg/";
   std::string plain(type);
-  if (const auto place = plain.find(kMiddle); place != std::string::npos)
-    plain.replace(place, kMiddle.size(), "/");
+  const auto replace_all = [&plain](std::string_view old, std::string_view by) {
+    for (auto place = plain.find(old); place != std::string::npos; place = plain.find(old, place + by.size()))
+      plain.replace(place, old.size(), by);
+  };
+  replace_all("::", "/");
+  if (plain.find("/dds_/") != std::string::npos && plain.ends_with('_')) plain.pop_back();
+  replace_all("/dds_/", "/");
+  replace_all("/msg/", "/");
   return plain;
 }
 

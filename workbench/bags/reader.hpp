@@ -62,7 +62,8 @@ class Reader {
   [[nodiscard]] virtual double progress() const = 0;
 };
 
-/// "nav_msgs/msg/Odometry", as ROS 2 writes it, is "nav_msgs/Odometry".
+/// "nav_msgs/msg/Odometry", as ROS 2 writes it, is "nav_msgs/Odometry", and so are "nav_msgs::msg::Odometry"
+/// of IDL and "nav_msgs::msg::dds_::Odometry_" of recorders below ROS.
 [[nodiscard]] std::string plain_type(std::string_view type);
 
 /// The topic's place among `topics`; appended where its like (name, type, encoding) is not there yet.

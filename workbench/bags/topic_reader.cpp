@@ -18,6 +18,12 @@ std::optional<Stamp> TopicReader::stamp() const {
   return Stamp{std::chrono::seconds(static_cast<std::int64_t>(whole_s)) + Duration(nanos)};
 }
 
+std::vector<std::string> TopicReader::notes() const {
+  std::vector<std::string> all = content_notes ? content_notes() : std::vector<std::string>{};
+  if (!decoder.note().empty()) all.insert(all.begin(), decoder.note());
+  return all;
+}
+
 std::vector<std::string> after_stamp(std::vector<std::string> numbers) {
   std::vector<std::string> all{"header.stamp.sec", "header.stamp.nanosec"};
   std::ranges::move(numbers, std::back_inserter(all));
