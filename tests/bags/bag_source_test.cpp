@@ -317,6 +317,21 @@ TEST(BagSource, FollowsTheFramesFromTheRobotToTheCamera) {
   EXPECT_THAT(source->notes(), Not(Contains(HasSubstr("tf_static"))));
 }
 
+TEST(BagSource, CountsObservationsWithoutAUsableIdentityOnce) {
+  auto made = std::make_unique<MadeBag>();
+  const auto markers = made->topic("/markers", "ros2_aruco_interfaces/ArucoMarkers");
+  for (int i = 1; i <= 3; ++i) {
+    Wire wire = with_header(i, "camera");
+    wire.add<std::uint32_t>(1).add<std::int64_t>(-1).add<std::uint32_t>(1);
+    for (const double value : {1.0, -3.0, 2.0, 0.0, 0.0, 0.0, 1.0}) wire.add(value);
+    made->add(markers, i, wire.bytes());
+  }
+  const auto source = source_of(std::move(made));
+  EXPECT_EQ(test::only<Observations>(test::read_all(*source).events).size(), 3U) << "empty scans";
+  EXPECT_THAT(source->notes(),
+              Contains(HasSubstr("/markers: 3 observations without a usable identity left out")));
+}
+
 std::string tag_corners(double stamp_s, std::initializer_list<std::pair<double, double>> corners) {
   Wire wire = with_header(stamp_s, "camera");
   wire.add<std::uint32_t>(1).text("tag25h9").add<std::int32_t>(17).add<std::int32_t>(0);

@@ -32,8 +32,7 @@ struct Role {
   std::function<Result<TopicReader>(const Topic&)> reader;
 };
 
-int detection_rank(const Topic& topic) { return is_detection(topic.type) ? 0 : -1; }
-int outline_rank(const Topic& topic) { return is_outline(topic.type) ? 0 : -1; }
+int outline_rank(const Topic& topic) { return is_outline(topic) ? 0 : -1; }
 int camera_rank(const Topic& topic) { return topic.type == kCameraInfo ? 0 : -1; }
 int transform_rank(const Topic& topic) {
   return topic.type == kTransforms || topic.type == kOldTransforms ? 0 : -1;
@@ -145,7 +144,7 @@ class Planner {
     if (!reader || first == first_.end()) return reader;
     if (auto done = reader->decoder.decode(first->second); !done) return done.error();
     if (auto content = reader->content(reader->decoder); !content) return content.error();
-    return reader;
+    return role.reader(topics()[place]);  // which has counted nothing yet
   }
 
   /// Takes the best topic that can be read into the plan.
@@ -236,9 +235,9 @@ class Planner {
   }
 
   void take_camera(std::size_t place, const std::string& images) {
-    // Tags are looked for in rectified images.
-    const bool rectified =
-        images.empty() ? !fit(outline_rank).empty() : images.find("image_rect") != std::string::npos;
+    const auto of_rectified = [this](std::size_t i) { return outlines_are_rectified(topics()[i].type); };
+    const bool rectified = images.empty() ? std::ranges::any_of(fit(outline_rank), of_rectified)
+                                          : images.find("image_rect") != std::string::npos;
     const auto camera = read_camera_info(topics()[place], first_[place], rectified);
     if (camera) {
       plan_.info.settings = lens_settings(*camera);

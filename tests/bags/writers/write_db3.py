@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes serialized messages as the .db3 file of a ROS 2 bag: write_db3.py CDR.jsonl OUT.db3 new|old|bare
 
-new: with the definitions of all types, as since ROS 2 Iron; old: the tables of ROS 2 Foxy, where only the types that
-are no standard ones can not be read; bare: like new, for the file alone. new and old write a metadata.yaml beside it.
+new: with the definitions of all types, as since ROS 2 Iron; old: the tables of ROS 2 Foxy, which have none; bare: like
+new, for the file alone. new and old write a metadata.yaml beside it.
 """
 import base64
 import json
