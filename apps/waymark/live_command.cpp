@@ -169,7 +169,8 @@ struct Outputs {
   std::unique_ptr<live::Monitor> monitor;
 };
 
-Result<Outputs> open_outputs(const LiveRequest& request, Config& config, Stamp now) {
+Result<Outputs> open_outputs(const LiveRequest& request, const std::string& session, Config& config,
+                             Stamp now) {
   auto trajectory = TumWriter::open(std::filesystem::path(request.output) / "trajectory.tum");
   if (!trajectory) return trajectory.error();
   Outputs outputs{*std::move(trajectory), std::nullopt, nullptr, nullptr};
@@ -179,7 +180,7 @@ Result<Outputs> open_outputs(const LiveRequest& request, Config& config, Stamp n
     outputs.publisher = *std::move(opened);
   }
   if (!request.record.empty()) {
-    auto opened = live::Recorder::open(request.record, describe(config).to_yaml(), now);
+    auto opened = live::Recorder::open(request.record, session, describe(config).to_yaml(), now);
     if (!opened) return opened.error();
     outputs.recorder = *std::move(opened);
   }
@@ -335,7 +336,7 @@ Result<void> run_live(const LiveRequest& request) {
   auto input = request.replay.empty() ? open_robot(request) : open_replay(request);
   if (!input) return input.error();
   const live::SessionClock clock = input->clock;
-  auto outputs = open_outputs(request, input->config, clock.now());
+  auto outputs = open_outputs(request, input->log.name, input->config, clock.now());
   if (!outputs) return outputs.error();
   const auto run = FilterRun::make(input->config);
   if (!run) return run.error();

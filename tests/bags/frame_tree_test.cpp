@@ -7,7 +7,7 @@
 namespace waymark::bag {
 namespace {
 
-constexpr const char* kDefinition = R"(geometry_msgs/TransformStamped[] transforms
+constexpr const char* kTransformDefinition = R"(geometry_msgs/TransformStamped[] transforms
 ================================================================================
 MSG: geometry_msgs/TransformStamped
 std_msgs/Header header
@@ -46,7 +46,8 @@ std::string message(const char* parent, const char* child, double x_m) {
 class FrameTreeTest : public testing::Test {
  protected:
   void tell(const char* topic, const char* parent, const char* child, double x_m) {
-    frames_.add({topic, "tf2_msgs/TFMessage", Encoding::kRos1, kDefinition, 1}, message(parent, child, x_m));
+    frames_.add({topic, "tf2_msgs/TFMessage", Encoding::kRos1, kTransformDefinition, 1},
+                message(parent, child, x_m));
   }
   FrameTree frames_;
 };

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/stamps.hpp"
+
 namespace waymark::live {
 namespace {
+
+using test::at;
 
 std::string bytes(std::initializer_list<int> values) {
   std::string text;
@@ -63,29 +67,27 @@ TEST(ArcosOdometry, PassesOverOtherPackets) {
   EXPECT_FALSE(odometry.add(bytes({0x33, 1})));
 }
 
-Stamp at_s(double s) { return stamp_from_seconds(s); }
-
 TEST(ArcosHandshake, SaysOneThingAfterTheOther) {
   ArcosHandshake handshake;
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(handshake.next(at_s(0.1 * i)), arcos_packet(bytes({i})));
-    EXPECT_EQ(handshake.next(at_s(0.1 * i + 0.05)), "");
+    EXPECT_EQ(handshake.next(at(0.1 * i)), arcos_packet(bytes({i})));
+    EXPECT_EQ(handshake.next(at(0.1 * i + 0.05)), "");
     handshake.heard(i == 2 ? bytes({2}) + "Robot" : bytes({i}));
   }
-  EXPECT_EQ(handshake.next(at_s(0.3)), arcos_command(ArcosCommand::kOpen));
+  EXPECT_EQ(handshake.next(at(0.3)), arcos_command(ArcosCommand::kOpen));
   EXPECT_TRUE(handshake.is_open());
-  EXPECT_EQ(handshake.next(at_s(0.5)), "");
-  EXPECT_EQ(handshake.next(at_s(1.35)), arcos_command(ArcosCommand::kPulse));
-  EXPECT_EQ(handshake.next(at_s(1.4)), "");
+  EXPECT_EQ(handshake.next(at(0.5)), "");
+  EXPECT_EQ(handshake.next(at(1.35)), arcos_command(ArcosCommand::kPulse));
+  EXPECT_EQ(handshake.next(at(1.4)), "");
 }
 
 TEST(ArcosHandshake, BeginsAnewWhereNobodyAnswers) {
   ArcosHandshake handshake;
-  EXPECT_EQ(handshake.next(at_s(0.0)), arcos_packet(bytes({0})));
+  EXPECT_EQ(handshake.next(at(0.0)), arcos_packet(bytes({0})));
   handshake.heard(bytes({0}));
-  EXPECT_EQ(handshake.next(at_s(0.1)), arcos_packet(bytes({1})));
-  EXPECT_EQ(handshake.next(at_s(0.3)), "");
-  EXPECT_EQ(handshake.next(at_s(0.7)), arcos_packet(bytes({0})));
+  EXPECT_EQ(handshake.next(at(0.1)), arcos_packet(bytes({1})));
+  EXPECT_EQ(handshake.next(at(0.3)), "");
+  EXPECT_EQ(handshake.next(at(0.7)), arcos_packet(bytes({0})));
 }
 
 }  // namespace

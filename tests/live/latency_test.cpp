@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "support/stamps.hpp"
+
 namespace waymark::live {
 namespace {
 
-Stamp at_s(double s) { return stamp_from_seconds(s); }
+using test::at;
 
 TEST(LatencyHistogram, TellsQuantilesToTwoPercent) {
   LatencyHistogram times;
@@ -24,17 +26,17 @@ TEST(LatencyHistogram, IsZeroWhereThereIsNothing) {
 
 TEST(CorrectionLatency, CountsWaitingForOdometryApart) {
   CorrectionLatency times;
-  times.observation_arrived(at_s(1.0), at_s(1.01));
-  times.odometry_arrived(at_s(0.99), at_s(0.995));
-  times.odometry_arrived(at_s(1.02), at_s(1.03));
-  times.corrected(at_s(1.0), at_s(1.034));
+  times.observation_arrived(at(1.0), at(1.01));
+  times.odometry_arrived(at(0.99), at(0.995));
+  times.odometry_arrived(at(1.02), at(1.03));
+  times.corrected(at(1.0), at(1.034));
   EXPECT_NEAR(times.waits().max_s(), 0.02, 1e-9);
   EXPECT_NEAR(times.latencies().max_s(), 0.004, 1e-9);
 }
 
 TEST(CorrectionLatency, PassesOverWhatItWasNotTold) {
   CorrectionLatency times;
-  times.corrected(at_s(1.0), at_s(2.0));
+  times.corrected(at(1.0), at(2.0));
   EXPECT_EQ(times.latencies().count(), 0);
 }
 

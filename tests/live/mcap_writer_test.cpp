@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "support/stamps.hpp"
+
 #include "workbench/bags/open_bag.hpp"
 
 namespace waymark::live {
 namespace {
 
-Stamp at_s(double s) { return stamp_from_seconds(s); }
+using test::at;
 
 std::string path(const char* name) { return testing::TempDir() + "/" + name; }
 
@@ -33,9 +35,9 @@ TEST(McapWriter, WritesWhatIsRead) {
   McapWriter mcap = writer(file);
   const auto text = mcap.add({"/text", "json", "Text", "jsonschema", "{}"});
   const auto more = mcap.add({"/more", "json", "", "", ""});
-  for (int i = 0; i < 10; ++i) mcap.write(i % 3 == 0 ? more : text, at_s(i), at_s(i), std::to_string(i));
+  for (int i = 0; i < 10; ++i) mcap.write(i % 3 == 0 ? more : text, at(i), at(i), std::to_string(i));
   ASSERT_TRUE(mcap.flush().ok());
-  for (int i = 10; i < 20; ++i) mcap.write(text, at_s(i), at_s(i), std::string(300'000, 'x'));
+  for (int i = 10; i < 20; ++i) mcap.write(text, at(i), at(i), std::string(300'000, 'x'));
   ASSERT_TRUE(mcap.close().ok());
 
   const auto bag = bag::open_bag(file).value();
@@ -44,8 +46,8 @@ TEST(McapWriter, WritesWhatIsRead) {
   EXPECT_EQ(summary.topics[0].name, "/text");
   EXPECT_EQ(summary.topics[0].messages, 16);
   EXPECT_EQ(summary.topics[1].messages, 4);
-  EXPECT_EQ(*summary.first, at_s(0));
-  EXPECT_EQ(*summary.last, at_s(19));
+  EXPECT_EQ(*summary.first, at(0));
+  EXPECT_EQ(*summary.last, at(19));
   std::vector<std::string> notes;
   const auto found = messages_in(file, &notes);
   ASSERT_EQ(found.size(), 20U);
@@ -58,10 +60,10 @@ TEST(McapWriter, LeavesWhatWasFlushedWhereWritingBreaksOff) {
   {
     McapWriter mcap = writer(file);
     const auto text = mcap.add({"/text", "json", "", "", ""});
-    for (int i = 0; i < 5; ++i) mcap.write(text, at_s(i), at_s(i), "kept");
+    for (int i = 0; i < 5; ++i) mcap.write(text, at(i), at(i), "kept");
     ASSERT_TRUE(mcap.flush().ok());
     std::filesystem::copy_file(file, cut, std::filesystem::copy_options::overwrite_existing);
-    mcap.write(text, at_s(9), at_s(9), "lost");
+    mcap.write(text, at(9), at(9), "lost");
     ASSERT_TRUE(mcap.close().ok());
   }
   EXPECT_EQ(messages_in(file).size(), 6U);
@@ -72,7 +74,7 @@ TEST(McapWriter, SaysThatTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   McapWriter mcap = writer("/dev/full");
   const auto text = mcap.add({"/text", "json", "", "", ""});
-  mcap.write(text, at_s(1), at_s(1), "x");
+  mcap.write(text, at(1), at(1), "x");
   const auto flushed = mcap.flush();
   ASSERT_FALSE(flushed.ok());
   EXPECT_NE(flushed.error().message.find("full"), std::string::npos);

@@ -63,15 +63,15 @@ std::string part(int grey, double stamp_s) {
 
 const std::string kHead = "HTTP/1.0 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=b\r\n\r\n";
 
-struct Run {
+struct Brought {
   std::vector<Arrival> arrivals;
   StreamSummary summary;
 };
 
 /// What a stream brings until `done`.
 template <class Done>
-Run run_until(MjpegStream& stream, const Done& done) {
-  Run run;
+Brought run_until(MjpegStream& stream, const Done& done) {
+  Brought run;
   std::mutex mutex;
   {
     const SessionClock clock;
@@ -98,7 +98,8 @@ TEST(MjpegStream, TakesImagesOfAWebServerAndConnectsAgain) {
                 {kHead + part(100, 5.0), kHead + part(150, 5.5).substr(0, 200), kHead + part(200, 6.0)});
   MjpegStream stream(parse_address("http://127.0.0.1:47041/camera?size=s", 0).value(), 7, Duration{0},
                      ImageSize{16, 8});
-  const Run run = run_until(stream, [](const auto& arrivals, const auto&) { return arrivals.size() == 2; });
+  const Brought run =
+      run_until(stream, [](const auto& arrivals, const auto&) { return arrivals.size() == 2; });
   ASSERT_EQ(run.arrivals.size(), 2U);
   const auto& image = std::get<Image>(run.arrivals[1].event.content);
   EXPECT_NEAR((*image.pixels)(3, 3), 200, 2);
@@ -112,7 +113,7 @@ TEST(MjpegStream, TakesImagesOfAWebServerAndConnectsAgain) {
 TEST(MjpegStream, UnpacksOnlyTheNewestOfSeveral) {
   Server server(47042, {kHead + part(10, 1.0) + part(20, 1.1) + part(30, 1.2)});
   MjpegStream stream(parse_address("http://127.0.0.1:47042", 0).value(), 0, Duration{0}, ImageSize{16, 8});
-  const Run run = run_until(stream, [](const auto& arrivals, const auto& summary) {
+  const Brought run = run_until(stream, [](const auto& arrivals, const auto& summary) {
     return !arrivals.empty() && summary.replaced + static_cast<std::int64_t>(arrivals.size()) == 3;
   });
   EXPECT_NEAR((*std::get<Image>(run.arrivals.back().event.content).pixels)(3, 3), 30, 2);
@@ -121,7 +122,7 @@ TEST(MjpegStream, UnpacksOnlyTheNewestOfSeveral) {
 TEST(MjpegStream, SaysWhyNothingComes) {
   Server server(47043, {"HTTP/1.0 404 Not Found\r\n\r\n"});
   MjpegStream stream(parse_address("http://127.0.0.1:47043/x", 0).value(), 0, Duration{0}, std::nullopt);
-  const Run run = run_until(stream, [](const auto&, const auto& summary) {
+  const Brought run = run_until(stream, [](const auto&, const auto& summary) {
     return summary.fault.find("404") != std::string::npos;
   });
   EXPECT_NE(run.summary.fault.find("404"), std::string::npos);
@@ -131,7 +132,7 @@ TEST(MjpegStream, CountsImagesOfAnotherSize) {
   Server server(47044, {kHead + part(10, 1.0)});
   MjpegStream stream(parse_address("http://127.0.0.1:47044/x", 0).value(), 0, Duration{0},
                      ImageSize{320, 240});
-  const Run run = run_until(stream, [](const auto&, const auto& summary) { return summary.bad == 1; });
+  const Brought run = run_until(stream, [](const auto&, const auto& summary) { return summary.bad == 1; });
   EXPECT_EQ(run.summary.bad, 1);
   EXPECT_TRUE(run.arrivals.empty());
 }

@@ -29,8 +29,9 @@ TEST(WheelLine, RefusesFlippedBits) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string bad = good;
       bad[at] = static_cast<char>(bad[at] ^ (1 << bit));
+      // A digit of the checksum in lower case is as good.
       const auto read = parse_wheel_line(bad);
-      if (read) EXPECT_EQ(*read, parse_wheel_line(good)) << bad;  // a digit of the checksum in lower case
+      EXPECT_TRUE(!read || read == parse_wheel_line(good)) << bad;
     }
 }
 

@@ -1,6 +1,8 @@
 #include "workbench/bags/live_recording.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,20 +28,27 @@ std::optional<std::size_t> find_topic(const bag::Summary& summary, std::string_v
   return static_cast<std::size_t>(found - summary.topics.begin());
 }
 
-std::optional<Stamp> stamp_at(const Json& json, const char* name) {
+std::optional<std::string> text_at(const Json& json, const char* name) {
   const auto found = json.find(name);
-  if (found == json.end() || !found->is_string()) return std::nullopt;
-  return parse_stamp(found->get_ref<const std::string&>());
+  return found != json.end() && found->is_string() ? std::optional(found->get<std::string>()) : std::nullopt;
+}
+
+std::optional<Stamp> stamp_at(const Json& json, const char* name) {
+  const auto text = text_at(json, name);
+  return text ? parse_stamp(*text) : std::nullopt;
 }
 
 StreamId stream_of(const Json& json) {
-  return {0, static_cast<std::uint16_t>(json.value("device", std::uint16_t{0}))};
+  const auto found = json.find("device");
+  const bool is_one = found != json.end() && found->is_number_unsigned() &&
+                      found->get<std::uint64_t>() <= std::numeric_limits<std::uint16_t>::max();
+  return {0, is_one ? found->get<std::uint16_t>() : std::uint16_t{0}};
 }
 
 class LiveRecording final : public Source {
  public:
-  LiveRecording(std::unique_ptr<bag::Reader> bag, LogInfo info)
-      : bag_(std::move(bag)), info_(std::move(info)) {}
+  LiveRecording(std::unique_ptr<bag::Reader> bag, std::string file)
+      : bag_(std::move(bag)), file_(std::move(file)) {}
 
   /// Looks for the config, which is the first event, and begins.
   [[nodiscard]] Result<void> begin() {
@@ -56,10 +65,11 @@ class LiveRecording final : public Source {
     bag_->rewind(std::move(wanted));
     const auto first = bag_->next();
     const Json json = first ? Json::parse(first->bytes, nullptr, false) : Json();
-    if (!json.is_object() || !json.contains("config") || !json["config"].is_string())
-      return Error{fmt::format("{}: the recording does not begin with its config", info_.name)};
-    const auto settings = flatten_yaml(json["config"].get<std::string>(), info_.name);
+    const auto config = text_at(json, "config");
+    if (!config) return Error{fmt::format("{}: the recording does not begin with its config", file_)};
+    const auto settings = flatten_yaml(*config, file_);
     if (!settings) return settings.error();
+    info_.name = text_at(json, "session").value_or(file_);
     for (const auto& [key, value, line] : *settings) info_.settings.emplace_back(key, value);
     return {};
   }
@@ -80,7 +90,7 @@ class LiveRecording final : public Source {
 
  private:
   [[nodiscard]] Error damaged(const std::string& why) const {
-    return Error{fmt::format("{}: {}: {}", info_.name, kEvents, why)};
+    return Error{fmt::format("{}: {}: {}", file_, kEvents, why)};
   }
 
   Result<std::optional<Event>> take_event(std::string_view bytes) {
@@ -109,7 +119,8 @@ class LiveRecording final : public Source {
   }
 
   std::unique_ptr<bag::Reader> bag_;
-  LogInfo info_;
+  std::string file_;
+  LogInfo info_{.name = "", .format = "live recording"};
   std::size_t events_ = 0;
   std::optional<bag::TopicReader> image_reader_;
   std::optional<std::pair<Stamp, StreamId>> image_;  // whose message comes next
@@ -127,8 +138,7 @@ bool is_live_recording(const std::filesystem::path& path) {
 Result<std::unique_ptr<Source>> open_live_recording(const std::filesystem::path& path) {
   auto bag = bag::open_bag(path);
   if (!bag) return bag.error();
-  LogInfo info{.name = base_name(path), .format = "live recording"};
-  auto recording = std::make_unique<LiveRecording>(*std::move(bag), std::move(info));
+  auto recording = std::make_unique<LiveRecording>(*std::move(bag), base_name(path));
   if (auto begun = recording->begin(); !begun) return begun.error();
   return std::unique_ptr<Source>(std::move(recording));
 }

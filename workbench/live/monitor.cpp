@@ -213,7 +213,7 @@ Result<std::unique_ptr<Monitor>> Monitor::start(const std::string& address, std:
   mg_set_request_handler(server->context, "/events", &MonitorPages::events, server.get());
   mg_set_request_handler(server->context, "/past", &MonitorPages::past, server.get());
   mg_set_request_handler(server->context, "/image", &MonitorPages::image, server.get());
-  mg_set_request_handler(server->context, "/do/", &MonitorPages::command, server.get());
+  mg_set_request_handler(server->context, "/do", &MonitorPages::command, server.get());
   return std::unique_ptr<Monitor>(new Monitor(std::move(server)));
 }
 

@@ -38,12 +38,12 @@ Recorder::Recorder(McapWriter writer)
       poses_(writer_.add({"/waymark/pose", "cdr", "geometry_msgs/msg/PoseWithCovarianceStamped", "ros2msg",
                           ros2::kPoseWithCovarianceStamped})) {}
 
-Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const std::string& config_yaml,
-                                                 Stamp now) {
+Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const std::string& session,
+                                                 const std::string& config_yaml, Stamp now) {
   auto writer = McapWriter::open(path);
   if (!writer) return writer.error();
   std::unique_ptr<Recorder> recorder(new Recorder(*std::move(writer)));
-  recorder->push_event(json_text(Json{{"config", config_yaml}}), now);
+  recorder->push_event(json_text(Json{{"session", session}, {"config", config_yaml}}), now);
   try {
     recorder->thread_ =
         std::jthread([raw = recorder.get()](const std::stop_token& stop) { raw->work(stop); });

@@ -19,7 +19,7 @@ namespace waymark::live {
 /// path and map. What decides stands on the topic /waymark/events, as lines of JSON in the order in which the
 /// filter was given it:
 ///
-///     {"config":"<YAML>"}                      the first
+///     {"session":"<name>","config":"<YAML>"}   the first
 ///     {"device":3, ...}                        an event (logs/json_event.hpp)
 ///     {"device":1,"image":"<stamp_s>"}         the next message of /camera/image/compressed
 ///     {"until":"<stamp_s>"}                    all up to this stamp was processed
@@ -33,6 +33,7 @@ class Recorder {
   static constexpr std::size_t kMostWaiting = 64'000'000;  ///< bytes
 
   [[nodiscard]] static Result<std::unique_ptr<Recorder>> open(const std::string& path,
+                                                              const std::string& session,
                                                               const std::string& config_yaml, Stamp now);
   ~Recorder();
   Recorder(const Recorder&) = delete;

@@ -47,7 +47,10 @@ Result<ScoredRun> run_and_score(const std::string& input, const UserSettings& us
   if (!opened) return opened.error();
   auto recording = record(*opened->source, opened->config, span, keep_going);
   if (!recording) return recording.error();
-  ScoredRun run = score_run(input, opened->config, opened->source->info(), *std::move(recording));
+  const LogInfo& log = opened->source->info();
+  const std::string& name =
+      opened->source->replay() ? log.name : input;  // the session, whose result it is again
+  ScoredRun run = score_run(name, opened->config, log, *std::move(recording));
   if (run.config.smooth.run) smooth_run(run);
   return run;
 }
