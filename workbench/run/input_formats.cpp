@@ -24,6 +24,9 @@ using Place = InputFormat::Place;
 
 bool has_plaza_text(const fs::path& folder) { return !plaza_text_runs(folder).empty(); }
 
+/// A folder whose log.yaml says what it is may hold a bag besides.
+bool is_bag_and_no_log_folder(const fs::path& path) { return !names_log_folder(path) && bag::is_bag(path); }
+
 Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, const InputOptions& options) {
   const auto path = choose_run(folder, plaza_text_runs(folder), options.run);
   return path ? open_plaza_text(*path, options.fix_known_errors) : path.error();
@@ -34,7 +37,7 @@ Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, cons
 std::span<const InputFormat> input_formats() {
   static const std::array kFormats{
       InputFormat{"a ROS bag", "a bag's metadata.yaml, or its .db3 or .mcap files", Place::kEither,
-                  bag::is_bag,
+                  is_bag_and_no_log_folder,
                   [](const fs::path& path, const InputOptions& options) {
                     return open_bag_source(path, options.bag);
                   }},
