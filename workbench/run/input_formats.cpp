@@ -5,6 +5,7 @@
 #include "workbench/bags/bag_source.hpp"
 #include "workbench/bags/open_bag.hpp"
 #include "workbench/datasets/car_park.hpp"
+#include "workbench/datasets/landmark_graph.hpp"
 #include "workbench/datasets/lost_in_the_woods.hpp"
 #include "workbench/datasets/mrclam.hpp"
 #include "workbench/datasets/planar_mono_slam.hpp"
@@ -64,7 +65,10 @@ std::span<const InputFormat> input_formats() {
                   }},
       InputFormat{"Victoria Park's graph", "a .txt file that begins with ODOMETRY", Place::kFile,
                   is_victoria_park_graph,
-                  [](const fs::path& file, const InputOptions&) { return open_victoria_park_graph(file); }}};
+                  [](const fs::path& file, const InputOptions&) { return open_victoria_park_graph(file); }},
+      InputFormat{"a landmark graph of g2o or PyFactorGraph", "a file that begins with VERTEX_SE2",
+                  Place::kFile, is_landmark_graph,
+                  [](const fs::path& file, const InputOptions&) { return open_landmark_graph(file); }}};
   return kFormats;
 }
 
