@@ -13,6 +13,7 @@ exceptions='
 tests/bags/            leg        joints of a walking robot
 CHANGELOG.md           *          names things as they were called at the time
 workbench/logs/map_forms.cpp  sighting  key of the JSON form of a map, which older programs read
+tests/logs/map_forms_test.cpp  sighting  reads that key
 docs/map-format.md     sighting   describes that key
 workbench/config/former_keys  *  keys that were renamed
 tests/config/former_keys      *  keys that were renamed

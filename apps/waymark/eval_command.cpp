@@ -1,113 +1,115 @@
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "workbench/eval/evaluate.hpp"
-#include "workbench/logs/map_files.hpp"
-#include "workbench/logs/pose_covariances.hpp"
-#include "workbench/logs/tum.hpp"
+#include "eval_inputs.hpp"
+#include "workbench/eval/space_path.hpp"
+#include "workbench/eval/space_score.hpp"
 #include "workbench/report/metrics.hpp"
 
 namespace waymark::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct EvalRequest {
   std::string result;
   std::string truth;
+  std::string plane;
   SettingsFlags flags;
   Verbosity verbosity;
 };
 
-/// What is to be scored: a results folder with its map, or a bare trajectory.
-struct Estimate {
-  Trajectory trajectory;
-  std::vector<LandmarkEstimate> map;
+/// The plane that --plane asks for; empty: the paths say whether they have one.
+using WantedPlane = std::optional<eval::Plane>;
+
+/// The paths of both sides in space.
+struct SpacePaths {
+  SpacePath result;
+  SpacePath truth;
 };
 
-/// The landmarks of map.csv under the full ids of map.waymark: of an id the table has the number only.
-Result<std::vector<LandmarkEstimate>> read_landmarks(const fs::path& folder) {
-  auto landmarks = read_map_csv(folder / "map.csv");
-  if (!landmarks || !fs::exists(folder / "map.waymark")) return landmarks;
-  const auto map = read_map(folder / "map.waymark");
-  if (!map) return map.error();
-  if (map->ids.size() != landmarks->size()) return landmarks;
-  for (std::size_t i = 0; i < landmarks->size(); ++i) (*landmarks)[i].id = map->ids[i];
-  return landmarks;
+SpacePaths paths_of(const EvalResult& result, const EvalTruth& truth) {
+  return {result.file ? result.file->path : eval::in_space(result.trajectory),
+          truth.file ? truth.file->path : eval::in_space(truth.track)};
 }
 
-Result<Estimate> read_estimate(const fs::path& path) {
-  const bool folder = fs::is_directory(path);
-  if (folder && !fs::exists(path / "trajectory.tum"))
-    return Error{path.string() + " is not a folder that `waymark run` wrote (no trajectory.tum)"};
-  auto trajectory = read_tum(folder ? path / "trajectory.tum" : path);
-  if (!trajectory) return trajectory.error();
-  Estimate estimate{std::move(*trajectory), {}};
-  const fs::path covariances = path / "trajectory_covariance.csv";
-  if (folder && fs::exists(covariances))
-    if (auto done = read_pose_covariances(covariances, estimate.trajectory); !done) return done.error();
-  if (!folder || !fs::exists(path / "map.csv")) return estimate;
-  auto map = read_landmarks(path);
-  if (!map) return map.error();
-  estimate.map = std::move(*map);
-  return estimate;
+/// Poses without stamps are matched by their number.
+Result<void> check_stamps(const EvalRequest& request, const EvalResult& result, const EvalTruth& truth) {
+  const bool result_has = !result.file || result.file->has_stamps;
+  const bool truth_has = !truth.file || truth.file->has_stamps;
+  if (result_has && truth_has) return {};
+  if (result_has || truth_has)
+    return Error{fmt::format(
+        "{}: poses without stamps (KITTI) can be scored only against others without stamps, "
+        "and {} has stamps; write both as TUM: stamp_s tx ty tz qx qy qz qw",
+        result_has ? request.truth : request.result, result_has ? request.result : request.truth)};
+  if (result.file->path.size() == truth.file->path.size()) return {};
+  return Error{
+      fmt::format("{} and {}: {} and {} poses without stamps (KITTI) cannot be matched by number; write "
+                  "both as TUM: stamp_s tx ty tz qx qy qz qw",
+                  request.result, request.truth, result.file->path.size(), truth.file->path.size())};
 }
 
-/// The reference: a log of any format, or a TUM trajectory.
-struct Reference {
-  eval::TruthTrack track;
-  std::vector<TrueLandmark> landmarks;
-  eval::EvaluateOptions options;
-};
-
-Result<Reference> read_log_truth(const std::string& input, const UserSettings& user) {
-  auto opened = open_input(input, user);
-  if (!opened) return opened.error();
-  Reference reference;
-  std::vector<eval::TruthSample> samples;
-  while (true) {
-    auto event = opened->source->next();
-    if (!event) return event.error();
-    if (!*event) break;
-    if (const auto* truth = std::get_if<Truth>(&(*event)->content))
-      samples.push_back({(*event)->stamp, *truth});
-  }
-  const LogInfo& log = opened->source->info();
-  reference.track = eval::TruthTrack(std::move(samples));
-  reference.landmarks = log.landmarks;
-  if (log.truth_sensor_m) reference.options.associate.truth_sensor_m = *log.truth_sensor_m;
-  return reference;
+bool is_planar(const std::optional<TrajectoryFile>& file) {
+  return !file || eval::is_planar(eval::out_of_plane(file->path));
 }
 
-Result<Reference> read_reference(const std::string& input, const UserSettings& user) {
-  if (!fs::is_regular_file(input)) return read_log_truth(input, user);
-  auto trajectory = read_tum(input);
-  if (!trajectory) return trajectory.error();
-  return Reference{eval::TruthTrack::from_trajectory(*trajectory), {}, {}};
+Trajectory in_plane(const SpacePath& path, WantedPlane plane) {
+  return eval::on_plane(path, eval::onto_plane(plane.value_or(eval::Plane::kXy), path));
+}
+
+/// Headings count where both paths have them.
+eval::TruthTrack without_headings(const eval::TruthTrack& track) {
+  auto samples = track.samples();
+  for (eval::TruthSample& sample : samples) sample.truth.theta_rad.reset();
+  return eval::TruthTrack(std::move(samples));
+}
+
+eval::Evaluation evaluate_in_plane(const EvalResult& result, const EvalTruth& truth, WantedPlane plane) {
+  const Trajectory path = result.file ? in_plane(result.file->path, plane) : result.trajectory;
+  auto track =
+      truth.file ? eval::TruthTrack::from_trajectory(in_plane(truth.file->path, plane)) : truth.track;
+  const auto lacks_headings = [](const auto& file) { return file && !eval::has_orientation(file->path); };
+  if (lacks_headings(result.file) || lacks_headings(truth.file)) track = without_headings(track);
+  return eval::evaluate(path, result.map, track, truth.landmarks, {}, truth.options);
+}
+
+std::string span_of(const SpacePath& path) {
+  if (path.empty()) return "nothing";
+  return fmt::format("{} to {} s", to_string(path.front().stamp), to_string(path.back().stamp));
+}
+
+Result<eval::Evaluation> score(const EvalRequest& request, const EvalResult& result, const EvalTruth& truth) {
+  WantedPlane plane;
+  if (!request.plane.empty()) plane = eval::plane_named(request.plane);
+  if (auto done = check_stamps(request, result, truth); !done) return done.error();
+  const SpacePaths paths = paths_of(result, truth);
+  auto evaluation = plane || (is_planar(result.file) && is_planar(truth.file))
+                        ? evaluate_in_plane(result, truth, plane)
+                        : eval::evaluate_in_space(paths.result, paths.truth, truth.options.associate);
+  if (evaluation.pairs == 0 && !paths.truth.empty())
+    return Error{
+        fmt::format("{}: does not overlap in time with {}: the estimate covers {}, the ground truth {}",
+                    request.result, request.truth, span_of(paths.result), span_of(paths.truth))};
+  return evaluation;
 }
 
 Result<void> evaluate(const EvalRequest& request) {
-  auto estimate = read_estimate(request.result);
-  if (!estimate) return estimate.error();
-  auto reference = read_reference(request.truth, request.flags.settings());
-  if (!reference) return reference.error();
-  if (reference->track.empty() && reference->landmarks.empty())
-    return Error{request.truth +
-                 ": no ground truth found: expected truth.csv or landmarks.csv, or a TUM trajectory"};
-  const auto evaluation = eval::evaluate(estimate->trajectory, estimate->map, reference->track,
-                                         reference->landmarks, {}, reference->options);
-  if (evaluation.pairs == 0 && !reference->track.empty())
-    return Error{fmt::format(
-        "{}: does not overlap in time with {}: the estimate covers {} to {} s, the ground truth {} to {} s",
-        request.result, request.truth, to_string(estimate->trajectory.front().stamp),
-        to_string(estimate->trajectory.back().stamp), to_string(reference->track.samples().front().stamp),
-        to_string(reference->track.samples().back().stamp))};
-  fmt::print("{}", request.verbosity.json ? truth_json_text(evaluation) : to_text(evaluation));
+  const auto result = read_eval_result(request.result, request.flags.settings());
+  if (!result) return result.error();
+  const auto truth = read_eval_truth(request.truth, request.flags.settings());
+  if (!truth) return truth.error();
+  auto evaluation = score(request, *result, *truth);
+  if (!evaluation) return evaluation.error();
+  auto& notes = evaluation->notes;
+  notes.insert(notes.begin(), truth->notes.begin(), truth->notes.end());
+  notes.insert(notes.begin(), result->notes.begin(), result->notes.end());
+  fmt::print("{}", request.verbosity.json ? truth_json_text(*evaluation) : to_text(*evaluation));
   return {};
 }
 
@@ -117,12 +119,27 @@ void add_eval(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand(
       "eval", "Compute the errors of a result against ground truth, with and without alignment");
   auto request = std::make_shared<EvalRequest>();
-  command->add_option("result", request->result, "folder that `waymark run` wrote, or a TUM trajectory")
+  command
+      ->add_option(
+          "result", request->result,
+          "folder that `waymark run` wrote, a trajectory (TUM, EuRoC, KITTI), or a log, whose odometry "
+          "is scored")
       ->required()
       ->type_name("RESULT");
-  command->add_option("--truth", request->truth, "log with ground truth, or a TUM trajectory")
+  command
+      ->add_option(
+          "--truth", request->truth,
+          "log of any kind with ground truth, a trajectory (TUM, EuRoC, KITTI), or a folder of another "
+          "run")
       ->required()
       ->type_name("LOG_OR_FILE");
+  command
+      ->add_option(
+          "--plane", request->plane,
+          "plane in which trajectories are scored: xy, xz, yz, or fit, of each path by itself; without "
+          "it, x-y or in space where they leave that")
+      ->check(CLI::IsMember({"xy", "xz", "yz", "fit"}))
+      ->type_name("PLANE");
   request->flags.add_to(*command);
   command->add_flag("--json", request->verbosity.json,
                     "print the errors as JSON on standard output and nothing else there");

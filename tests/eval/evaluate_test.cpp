@@ -108,6 +108,20 @@ TEST(Evaluate, ComparesTheTruthSensorNotTheRobot) {
   EXPECT_GT(*score_path(path, truth).position_rmse_m, 0.5);
 }
 
+TEST(Evaluate, TheMapOfAStandingRobotIsNotTurnedByTheNoiseOfItsPath) {
+  RandomStream random = test::random_stream(22);
+  Trajectory estimate, path;
+  for (int i = 0; i < 60; ++i) {
+    const Stamp stamp = stamp_from_seconds(0.1 * i);
+    path.push_back({stamp, {1e-4 * random.normal(), 1e-4 * random.normal(), 0.0}, std::nullopt});
+    estimate.push_back({stamp, {1e-5 * random.normal(), 1e-5 * random.normal(), 0.0}, std::nullopt});
+  }
+  const auto evaluation =
+      evaluate(estimate, map_in({}), TruthTrack::from_trajectory(path), kTwoMarkers, {}, {});
+  EXPECT_LT(*evaluation.map->rmse_m, 0.001);
+  EXPECT_THAT(evaluation.notes, testing::Contains(testing::HasSubstr("placed by the start pose")));
+}
+
 TEST(Evaluate, EmptyInputsLeaveEverythingEmpty) {
   const auto nothing = evaluate({}, {}, TruthTrack(), {});
   EXPECT_EQ(nothing.pairs, 0u);

@@ -74,6 +74,33 @@ TEST(LogFolder, EmptyCellsDecideWhatWasMeasured) {
   EXPECT_EQ(std::get<Bearing>(seen[2].value).bearing_rad, 0.25);
 }
 
+TEST(LogFolder, IdsMayBeWrittenAsOtherNumbers) {
+  const Observations observed = read_observations("1,3.0,2,0.5\n1,,2,0.5\n");
+  ASSERT_EQ(observed.size(), 2U);
+  EXPECT_EQ(observed[0].id, (LandmarkId{LandmarkId::Family::kMarker, 3}));
+  EXPECT_FALSE(observed[1].id);
+}
+
+TEST(LogFolder, ABagBesideItsFilesIsNamedAndNotRead) {
+  const TempFolder folder;
+  folder.write("log.yaml", kVersionLine);
+  folder.write("notes.db3", "SQLite format 3");
+  folder.write("drive_0.mcap", "");
+  EXPECT_TRUE(names_log_folder(folder.path()));
+  const auto log = open_log_folder(folder.path());
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_THAT((*log)->notes(), testing::ElementsAre(HasSubstr(
+                                   "log.yaml says that this is a log folder: drive_0.mcap and notes.db3 "
+                                   "in it are not read")));
+}
+
+TEST(LogFolder, AnotherProgramsLogYamlNamesNoLogFolder) {
+  const TempFolder folder;
+  EXPECT_FALSE(names_log_folder(folder.path()));
+  folder.write("log.yaml", "level: debug\n");
+  EXPECT_FALSE(names_log_folder(folder.path()));
+}
+
 TEST(LogFolder, SaysWhetherAnyObservationHasAnIdentity) {
   const std::string head = "stamp_s,id,range_m,bearing_rad\n";
   const auto has_identities = [&](const std::string& rows) {

@@ -61,6 +61,17 @@ TEST(TextTable, StampsAreExact) {
   EXPECT_EQ(table->stamp(0), Stamp{Duration{1248444175103000001}});
 }
 
+TEST(TextTable, WholeNumbersMayBeWrittenAsOthers) {
+  auto table = table_of("stamp_s,left_rad,right_rad\n3,-3.000,1e2\n2147483648.0,2.5,nan\n");
+  ASSERT_TRUE(table.ok() && table->next());
+  EXPECT_EQ(table->integer(0), 3);
+  EXPECT_EQ(table->integer(1), -3);
+  EXPECT_EQ(table->integer(2), 100);
+  ASSERT_TRUE(table->next());
+  EXPECT_EQ(table->integer(0), 0);
+  EXPECT_THAT(table->error().value().message, HasSubstr("'2147483648.0' is not a whole number"));
+}
+
 TEST(TextTable, EqualStampsAreInOrder) {
   EXPECT_EQ(table_error("stamp_s,left_rad,right_rad\n1,2,3\n1,2,3\n"), "");
 }
@@ -94,6 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadTable{"1,2,1e999\n", "wheels.csv:2: '1e999' is not a number in column right_rad"},
         BadTable{"1,,3\n", "wheels.csv:2: column left_rad is empty; it needs a number"},
         BadTable{"nan,2,3\n", "wheels.csv:2: 'nan' is not a number of seconds in column stamp_s"},
+        BadTable{"1700000000000,2,3\n",
+                 "wheels.csv:2: '1700000000000' is not a number of seconds in column stamp_s: is it in "
+                 "milliseconds? Divide the column by 1e3"},
+        BadTable{"1700000000000000000,2,3\n",
+                 "wheels.csv:2: '1700000000000000000' is not a number of seconds in column stamp_s: is it in "
+                 "nanoseconds? Divide the column by 1e9"},
         BadTable{",2,3\n", "wheels.csv:2: column stamp_s is empty; it needs a number of seconds"},
         BadTable{"\x01-\xFF,2,3\n", "wheels.csv:2: '?-?' is not a number of seconds in column stamp_s"},
         BadTable{

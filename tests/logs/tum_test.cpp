@@ -1,9 +1,14 @@
 #include "workbench/logs/tum.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "support/io_support.hpp"
 #include "waymark/core/random.hpp"
+#include "waymark/core/trajectory.hpp"
+
+#include "workbench/logs/trajectory_file.hpp"
 
 namespace waymark {
 namespace {
@@ -24,12 +29,16 @@ TEST(Tum, ReadsBackWhatWasWritten) {
   ASSERT_TRUE(writer.ok());
   for (const auto& point : written) writer->write(point.stamp, point.pose);
   ASSERT_TRUE(writer->close().ok());
-  const auto read = read_tum(file);
+  const auto read = read_trajectory(file);
   ASSERT_TRUE(read.ok()) << read.error().message;
-  ASSERT_EQ(read->size(), written.size());
+  EXPECT_TRUE(read->notes.empty());
+  ASSERT_EQ(read->path.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
-    EXPECT_EQ((*read)[i].stamp, written[i].stamp);
-    EXPECT_LT(difference((*read)[i].pose, written[i].pose).cwiseAbs().maxCoeff(), 5e-9);
+    const SpacePose& pose = read->path[i];
+    EXPECT_EQ(pose.stamp, written[i].stamp);
+    EXPECT_EQ(pose.p_m.z(), 0.0);
+    const Pose2 planar{pose.p_m.x(), pose.p_m.y(), wrap_angle(2.0 * std::atan2(pose.q.z(), pose.q.w()))};
+    EXPECT_LT(difference(planar, written[i].pose).cwiseAbs().maxCoeff(), 5e-9);
   }
 }
 
@@ -48,10 +57,10 @@ TEST(Tum, WhatWasWrittenIsOnDiskAfterFlushAndAfterDestruction) {
     TumWriter writer = *std::move(opened);
     writer.write(Stamp{}, {});
     writer.flush();
-    EXPECT_EQ(read_tum(file).value().size(), 1U);
+    EXPECT_EQ(read_trajectory(file).value().path.size(), 1U);
     writer.write(Stamp{}, {});
   }
-  EXPECT_EQ(read_tum(file).value().size(), 2U);
+  EXPECT_EQ(read_trajectory(file).value().path.size(), 2U);
 }
 
 TEST(Tum, OutputThatCannotBeWrittenIsAnError) {
@@ -62,26 +71,6 @@ TEST(Tum, OutputThatCannotBeWrittenIsAnError) {
   ASSERT_TRUE(full.ok());
   full->write(Stamp{}, {});
   EXPECT_EQ(full->close().error().kind, Error::Kind::kFailed);
-}
-
-TEST(Tum, HeadingComesFromAnyQuaternionAboutTheVertical) {
-  const TempFolder folder;
-  const auto file = folder.write("t.tum", "# comment\n1 2 3 9 0 0 2 2\n2 2 3 9 0 0 -1 0\n");
-  const auto read = read_tum(file);
-  ASSERT_TRUE(read.ok()) << read.error().message;
-  EXPECT_DOUBLE_EQ((*read)[0].pose.theta_rad, kPi / 2);
-  EXPECT_DOUBLE_EQ((*read)[1].pose.theta_rad, kPi);
-}
-
-TEST(Tum, BadRowsAreErrorsWithTheirLine) {
-  const TempFolder folder;
-  const auto error_of = [&](const char* text) {
-    return read_tum(folder.write("t.tum", text)).error().message;
-  };
-  EXPECT_THAT(error_of("1 2 3 0 0 0 0 1\n2 2 3 0 0 0"), HasSubstr("t.tum:2: expected 8 columns"));
-  EXPECT_THAT(error_of("1 2 3 0 0 0 0 0\n"), HasSubstr("t.tum:1: the quaternion is zero"));
-  EXPECT_THAT(error_of("1 nan 3 0 0 0 0 1\n"), HasSubstr("t.tum:1: 'nan'"));
-  EXPECT_THAT(error_of("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), HasSubstr("t.tum:2: stamp"));
 }
 
 }  // namespace

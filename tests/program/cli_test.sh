@@ -135,7 +135,23 @@ done
 does eval whole --truth log --json
 grep -q position_rmse_m out.txt || fail 'eval prints no errors'
 does eval whole/trajectory.tum --truth whole/trajectory.tum
-refuses 2 'log is not a folder that `waymark run` wrote (no trajectory.tum)' eval log --truth log
+does eval log --truth log
+grep -q 'its odometry alone is scored' out.txt || fail 'eval does not say that it scores odometry'
+does eval whole --truth whole/trajectory.tum
+does eval whole --truth whole --json
+grep -q 'landmark_rmse_m' out.txt || fail 'eval does not take a run as truth'
+refuses 2 'log/log.yaml:' eval log/log.yaml --truth log
+awk '{ print $1, $2, $4, $3, $5, -$7, $6, $8 }' whole/trajectory.tum >upright.tum
+does eval upright.tum --truth upright.tum
+grep -q 'scored in space' out.txt || fail 'eval does not say that a path is scored in space'
+does eval upright.tum --truth upright.tum --plane xz
+! grep -q 'scored in space' out.txt || fail 'eval does not score in the plane that it is told'
+awk '{ print 1, 0, 0, $2, 0, 1, 0, $3, 0, 0, 1, $4 }' whole/trajectory.tum >kitti.txt
+does eval kitti.txt --truth kitti.txt
+head -n 5 kitti.txt >short.txt
+refuses 2 'poses without stamps (KITTI) cannot be matched by number' eval short.txt --truth kitti.txt
+refuses 2 'poses without stamps (KITTI) can be scored only' eval kitti.txt --truth whole/trajectory.tum
+refuses 2 'plane' eval kitti.txt --truth kitti.txt --plane up
 
 # Without a result nothing is written, and nothing printed.
 cp -r whole untouched

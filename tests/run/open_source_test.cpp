@@ -21,6 +21,16 @@ TEST(OpenSource, RecognisesALogFolder) {
   EXPECT_EQ((*source)->info().format, "log folder");
 }
 
+TEST(OpenSource, LogYamlSaysWhatAFolderIsEvenWithABagInIt) {
+  const TempFolder folder;
+  folder.write("drive_0.mcap", "\x89MCAP0\r\n");
+  EXPECT_FALSE(open_source(folder.path()).ok());
+  folder.write("log.yaml", "waymark_log: 1\n");
+  const auto source = open_source(folder.path());
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ((*source)->info().format, "log folder");
+}
+
 TEST(OpenSource, RecognisesMrclamAndPassesTheRobotOn) {
   const TempFolder folder;
   folder.write("Barcodes.dat", "6 63\n");

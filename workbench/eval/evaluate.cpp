@@ -1,6 +1,14 @@
 #include "workbench/eval/evaluate.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
 #include "waymark/core/angle.hpp"
+
+#include "workbench/eval/map_placement.hpp"
 
 namespace waymark::eval {
 namespace {
@@ -68,6 +76,26 @@ void add_path(Evaluation& evaluation, std::span<const PosePair> pairs) {
   evaluation.scored_s = to_seconds(pairs.back().stamp - pairs.front().stamp);
 }
 
+std::string start_note(const FitAngle& angle) {
+  constexpr double kMost_rad = 0.5 * kPi;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "landmarks are placed by the start pose: the path spreads over %.3g m, which tells its angle "
+                "to +- %.2g deg",
+                angle.spread_m, to_degrees(std::min(angle.sigma_rad, kMost_rad)));
+  return text.data();
+}
+
+/// Where the path is too short to tell the angle of the map, its start does.
+void place_map(Evaluation& evaluation, std::span<const PosePair> pairs,
+               std::span<const LandmarkEstimate> map) {
+  if (!evaluation.anchor || !evaluation.fit) return;
+  const FitAngle angle = fit_angle(pairs, *evaluation.fit);
+  if (!start_places_map(pairs, map, *evaluation.anchor, angle)) return;
+  evaluation.notes.push_back(start_note(angle));
+  evaluation.fit->T_truth_estimate = evaluation.anchor->T_truth_estimate;
+}
+
 PathFrames path_frames(const Evaluation& evaluation) {
   PathFrames frames;
   if (evaluation.anchor) frames.T_truth_anchored = evaluation.anchor->T_truth_estimate;
@@ -83,12 +111,13 @@ Evaluation evaluate(const Trajectory& estimate, std::span<const LandmarkEstimate
   Evaluation evaluation{.truth_samples = truth.samples().size()};
   const std::vector<PosePair> pairs = associate(estimate, truth, options.associate);
   add_path(evaluation, pairs);
+  if (!survey.empty()) place_map(evaluation, pairs, map);
   evaluation.odometry = score_path(dead_reckoning, truth, options.associate);
   const PathFrames frames = path_frames(evaluation);
   evaluation.map = map_error(map, survey, frames, options.names);
   if (const auto matches = match_landmarks(map, survey, frames, options.names))
     evaluation.procrustes = procrustes_score(pairs, places(map, survey, *matches));
-  evaluation.notes = notes(evaluation);
+  std::ranges::move(notes(evaluation), std::back_inserter(evaluation.notes));
   return evaluation;
 }
 

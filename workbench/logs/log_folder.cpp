@@ -5,10 +5,12 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "waymark/core/names.hpp"
 
@@ -286,7 +288,26 @@ Result<void> check_one_odometry(const fs::path& folder) {
   return {};
 }
 
+/// Recordings that lie in the folder and are no part of the log.
+std::vector<std::string> describe_bags_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (const auto kind = entry.path().extension(); kind == ".bag" || kind == ".db3" || kind == ".mcap")
+      names.push_back(entry.path().filename().string());
+  if (names.empty()) return {};
+  std::ranges::sort(names);
+  return {
+      fmt::format("{} says that this is a log folder: {} in it {} not read; to read a bag, give its own name",
+                  log_format::kInfoFile, fmt::join(names, " and "), names.size() > 1 ? "are" : "is")};
+}
+
 }  // namespace
+
+bool names_log_folder(const fs::path& folder) {
+  const auto text = read_file(folder / log_format::kInfoFile);
+  return text && text->find(log_format::kVersionKey) != std::string::npos;
+}
 
 bool is_log_folder(const fs::path& folder) {
   return fs::exists(folder / log_format::kInfoFile) ||
@@ -319,7 +340,7 @@ Result<std::unique_ptr<Source>> open_log_folder(const fs::path& folder) {
   for (const auto& [format, read_row] : tables)
     if (auto done = open_stream(folder, format, read_row, streams); !done) return done.error();
   return std::unique_ptr<Source>(
-      std::make_unique<MergedLog>(std::move(info), std::move(streams), std::vector<std::string>{}));
+      std::make_unique<MergedLog>(std::move(info), std::move(streams), describe_bags_in(folder)));
 }
 
 }  // namespace waymark

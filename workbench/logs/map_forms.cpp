@@ -1,7 +1,10 @@
 #include "workbench/logs/map_forms.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "workbench/logs/files.hpp"
+#include "workbench/logs/json_place.hpp"
 #include "workbench/logs/json_text.hpp"
 #include "workbench/logs/map_files.hpp"
 
@@ -52,10 +56,44 @@ Json patches_json(const MapState& map) {
   return patches;
 }
 
-Pose2 pose_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+using Place = JsonPlace<Json>;
 
-LandmarkId id_of(const Json& json) {
-  return {family_named(json.at("kind").get<std::string>()).value(), json.at("number")};
+Pose2 pose_of(const Place& place) {
+  const auto items = place.items(3);
+  return {items[0].number(), items[1].number(), items[2].number()};
+}
+
+LandmarkId id_of(const Place& place) {
+  const Place kind = place.at("kind");
+  const auto family = family_named(kind.text());
+  if (!family) kind.fail("is not a kind of landmark; expected none, marker, barcode or corner");
+  return {*family, place.at("number").whole<std::int32_t>()};
+}
+
+Stamp stamp_of(const Place& place) {
+  const auto stamp = parse_stamp(place.text());
+  if (!stamp) place.fail("is not a number of seconds");
+  return *stamp;
+}
+
+LandmarkPatch patch_of(const Place& place) {
+  LandmarkPatch patch{id_of(place), pose_of(place.at("pose")), {}};
+  for (const Place& pixel : place.at("pixels").items()) patch.pixels.push_back(pixel.whole<std::uint8_t>());
+  return patch;
+}
+
+/// The upper triangle, row by row.
+Eigen::MatrixXd covariance_of(const Place& place) {
+  const auto rows = place.items();
+  const std::size_t n = rows.size();
+  Eigen::MatrixXd P(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = rows[i].items(n - i);
+    for (std::size_t j = i; j < n; ++j)
+      P(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          P(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) = row[j - i].number();
+  }
+  return P;
 }
 
 std::string format_json(const MapState& map) {
@@ -75,29 +113,23 @@ std::string format_json(const MapState& map) {
   return json_text(json, 1) + '\n';
 }
 
-MapState map_of(const Json& json) {
+MapState map_of(const Place& place) {
   MapState map;
-  map.made_by = json.at("made_by").get<std::string>();
-  map.stamp = parse_stamp(json.at("stamp_s").get<std::string>()).value();
-  map.T_world_robot = pose_of(json.at("pose"));
-  map.landmark_dimension = json.at("landmark_dimension");
+  map.made_by = place.at("made_by").text();
+  map.stamp = stamp_of(place.at("stamp_s"));
+  map.T_world_robot = pose_of(place.at("pose"));
+  map.landmark_dimension = place.at("landmark_dimension").whole<int>();
   std::vector<double> coordinates;
-  for (const Json& landmark : json.at("landmarks")) {
+  for (const Place& landmark : place.at("landmarks").items()) {
     map.ids.push_back(id_of(landmark));
-    map.observations.push_back(landmark.at("sightings"));
-    for (const Json& coordinate : landmark.at("position_m")) coordinates.push_back(coordinate);
+    map.observations.push_back(landmark.at("sightings").whole<int>());
+    for (const Place& coordinate : landmark.at("position_m").items())
+      coordinates.push_back(coordinate.number());
   }
   map.landmarks =
       Eigen::Map<const Eigen::VectorXd>(coordinates.data(), static_cast<Eigen::Index>(coordinates.size()));
-  const Json& rows = json.at("covariance");
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  map.covariance.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = i; j < n; ++j)
-      map.covariance(i, j) = map.covariance(j, i) =
-          rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j - i));
-  for (const Json& patch : json.at("patches"))
-    map.patches.push_back({id_of(patch), pose_of(patch.at("pose")), patch.at("pixels")});
+  map.covariance = covariance_of(place.at("covariance"));
+  for (const Place& patch : place.at("patches").items()) map.patches.push_back(patch_of(patch));
   return map;
 }
 
@@ -108,17 +140,26 @@ Result<MapState> checked(const MapState& map, const std::string& name) {
   return parse_map(*std::move(text), name);
 }
 
+/// A message of the JSON library without the name of its exception, which stands before it in brackets.
+std::string_view without_name(std::string_view message) {
+  if (!message.starts_with("[json.")) return message;
+  const std::size_t end = message.find("] ");
+  return end == std::string_view::npos ? message : message.substr(end + 2);
+}
+
 Result<MapState> read_json(const std::filesystem::path& path) {
   const auto text = read_file(path);
   if (!text) return text.error();
   try {
     const Json json = Json::parse(*text);
-    if (json.at("waymark_map") != 1)
+    if (json.is_object() && json.contains("waymark_map") && json["waymark_map"] != 1)
       return Error{fmt::format("{}: version {} of the map format is not supported; only 1 is", path.string(),
-                               json_text(json.at("waymark_map")))};
-    return checked(map_of(json), path.string());
+                               json_text(json["waymark_map"]))};
+    const Place place(json);
+    (void)place.at("waymark_map");
+    return checked(map_of(place), path.string());
   } catch (const std::exception& problem) {
-    return Error{fmt::format("{}: is not a map: {}", path.string(), problem.what())};
+    return Error{fmt::format("{}: is not a map: {}", path.string(), without_name(problem.what()))};
   }
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "waymark/core/names.hpp"
+
+#include "workbench/logs/stamp_unit.hpp"
 
 namespace waymark {
 namespace {
@@ -18,6 +21,24 @@ std::vector<std::string> split_names(std::string_view names) {
   std::vector<std::string> all;
   while (!names.empty()) all.emplace_back(take_cell(names));
   return all;
+}
+
+/// A whole number, also as programs write those of a column that has gaps: 3.0.
+std::optional<int> parse_whole_number(std::string_view text) {
+  if (const auto integer = parse_integer(text)) return integer;
+  using Limits = std::numeric_limits<int>;
+  const auto number = parse_number(text);
+  if (!number || std::trunc(*number) != *number || *number < Limits::min() || *number > Limits::max())
+    return std::nullopt;
+  return static_cast<int>(*number);
+}
+
+/// What to do about a stamp that is too large for seconds.
+std::string mend_of_stamp(std::string_view text) {
+  const auto count = parse_number(text);
+  const auto unit = count && std::isfinite(*count) ? unit_of_large_stamp(*count) : std::nullopt;
+  if (!unit) return "";
+  return fmt::format(": is it in {}? Divide the column by 1e{}", name_of(*unit), places_of(*unit));
 }
 
 }  // namespace
@@ -104,14 +125,18 @@ double TextTable::number(std::size_t column) {
 }
 
 int TextTable::integer(std::size_t column) {
-  const auto value = parse_integer(text(column));
+  const auto value = parse_whole_number(text(column));
   if (!value) fail_cell(column, "a whole number");
   return value.value_or(0);
 }
 
 Stamp TextTable::stamp(std::size_t column) {
   const auto value = parse_stamp(text(column));
-  if (!value) fail_cell(column, "a number of seconds");
+  if (const auto mend = value ? std::string() : mend_of_stamp(text(column)); !mend.empty())
+    fail(fmt::format("{} is not a number of seconds in column {}{}", in_quotes(text(column)),
+                     columns_[column], mend));
+  else if (!value)
+    fail_cell(column, "a number of seconds");
   return value.value_or(Stamp{});
 }
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "workbench/logs/number_text.hpp"
-#include "workbench/logs/text_table.hpp"
 
 namespace waymark {
 namespace {
@@ -14,27 +13,7 @@ namespace {
 constexpr std::size_t kBufferBytes = 1 << 16;
 constexpr std::size_t kLongestRow = 2048;
 
-/// Heading of the quaternion in columns 4 to 7.
-double read_heading(TextTable& row) {
-  const double x = row.number(4), y = row.number(5), z = row.number(6), w = row.number(7);
-  if (x * x + y * y + z * z + w * w < 1e-6) row.fail("the quaternion is zero");
-  return std::atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z);
-}
-
 }  // namespace
-
-Result<Trajectory> read_tum(const std::filesystem::path& path) {
-  auto table = TextTable::open(path, {"stamp_s,tx,ty,tz,qx,qy,qz,qw", TableLayout::Separator::kBlank, ""});
-  if (!table) return table.error();
-  Trajectory trajectory;
-  while (table->next()) {
-    TrajectoryPoint point{table->ordered_stamp(0), {table->number(1), table->number(2), 0.0}, std::nullopt};
-    point.pose.theta_rad = wrap_angle(read_heading(*table));
-    trajectory.push_back(point);
-  }
-  if (table->error()) return *table->error();
-  return trajectory;
-}
 
 Result<TumWriter> TumWriter::open(const std::filesystem::path& path) {
   errno = 0;

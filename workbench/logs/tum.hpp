@@ -4,18 +4,15 @@
 #include <fstream>
 #include <string>
 
+#include "waymark/core/pose2.hpp"
 #include "waymark/core/result.hpp"
-#include "waymark/core/trajectory.hpp"
+#include "waymark/core/stamp.hpp"
 
 namespace waymark {
 
-/// Reads a trajectory in the TUM format: rows of `stamp_s tx ty tz qx qy qz qw`, # begins a comment. Of the
-/// orientation the heading is kept (quaternions need not be of unit length), z is left out. Stamps must not
-/// go back.
-[[nodiscard]] Result<Trajectory> read_tum(const std::filesystem::path& path);
-
-/// Writes a trajectory in the TUM format while it is being computed. Rows wait in a buffer and are on disk
-/// after flush(), close() or destruction. The same poses give the same bytes. About 0.2 us per row.
+/// Writes a trajectory in the TUM format, rows of `stamp_s tx ty tz qx qy qz qw` with z = 0, while it is
+/// being computed. Rows wait in a buffer and are on disk after flush(), close() or destruction. The same
+/// poses give the same bytes. About 0.2 us per row.
 class TumWriter {
  public:
   [[nodiscard]] static Result<TumWriter> open(const std::filesystem::path& path);

@@ -239,7 +239,9 @@ SmoothedFigures smoothed_figures(const smooth::Smoothed& smoothed, const Config&
 }
 
 std::string truth_json_text(const eval::Evaluation& evaluation) {
-  return json_text(truth_json(evaluation), 2) + "\n";
+  Json json = truth_json(evaluation);
+  if (!evaluation.notes.empty()) json["notes"] = evaluation.notes;
+  return json_text(json, 2) + "\n";
 }
 
 std::string to_text(const eval::Evaluation& e) {

@@ -6,6 +6,7 @@
 #include "workbench/bags/live_recording.hpp"
 #include "workbench/bags/open_bag.hpp"
 #include "workbench/datasets/car_park.hpp"
+#include "workbench/datasets/landmark_graph.hpp"
 #include "workbench/datasets/lost_in_the_woods.hpp"
 #include "workbench/datasets/mrclam.hpp"
 #include "workbench/datasets/planar_mono_slam.hpp"
@@ -25,6 +26,9 @@ using Place = InputFormat::Place;
 
 bool has_plaza_text(const fs::path& folder) { return !plaza_text_runs(folder).empty(); }
 
+/// A folder whose log.yaml says what it is may hold a bag besides.
+bool is_bag_and_no_log_folder(const fs::path& path) { return !names_log_folder(path) && bag::is_bag(path); }
+
 Result<std::unique_ptr<Source>> open_plaza_text_run(const fs::path& folder, const InputOptions& options) {
   const auto path = choose_run(folder, plaza_text_runs(folder), options.run);
   return path ? open_plaza_text(*path, options.fix_known_errors) : path.error();
@@ -38,7 +42,7 @@ std::span<const InputFormat> input_formats() {
                   is_live_recording,
                   [](const fs::path& path, const InputOptions&) { return open_live_recording(path); }},
       InputFormat{"a ROS bag", "a bag's metadata.yaml, or its .db3 or .mcap files", Place::kEither,
-                  bag::is_bag,
+                  is_bag_and_no_log_folder,
                   [](const fs::path& path, const InputOptions& options) {
                     return open_bag_source(path, options.bag);
                   }},
@@ -65,7 +69,10 @@ std::span<const InputFormat> input_formats() {
                   }},
       InputFormat{"Victoria Park's graph", "a .txt file that begins with ODOMETRY", Place::kFile,
                   is_victoria_park_graph,
-                  [](const fs::path& file, const InputOptions&) { return open_victoria_park_graph(file); }}};
+                  [](const fs::path& file, const InputOptions&) { return open_victoria_park_graph(file); }},
+      InputFormat{"a landmark graph of g2o or PyFactorGraph", "a file that begins with VERTEX_SE2",
+                  Place::kFile, is_landmark_graph,
+                  [](const fs::path& file, const InputOptions&) { return open_landmark_graph(file); }}};
   return kFormats;
 }
 

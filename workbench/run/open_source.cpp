@@ -65,16 +65,29 @@ Error no_log_file(const fs::path& file) {
   return {fmt::format("{} is not a log: expected {}", file.string(), fmt::join(format_names(), "; or "))};
 }
 
+const InputFormat* format_of(const fs::path& path, InputFormat::Place place) {
+  const auto found = std::ranges::find_if(input_formats(), [&](const InputFormat& format) {
+    return format.can_be(place) && format.recognises(path);
+  });
+  return found == input_formats().end() ? nullptr : &*found;
+}
+
+InputFormat::Place place_of(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? InputFormat::Place::kFolder : InputFormat::Place::kFile;
+}
+
 }  // namespace
+
+bool is_log(const fs::path& path) { return format_of(path, place_of(path)) != nullptr; }
 
 Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOptions& options) {
   std::error_code failed;
   const auto status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) return Error{"no such file or directory: " + path.string()};
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
-  const auto place = fs::is_directory(status) ? InputFormat::Place::kFolder : InputFormat::Place::kFile;
-  for (const InputFormat& format : input_formats())
-    if (format.can_be(place) && format.recognises(path)) return format.open(path, options);
+  const auto place = place_of(path);
+  if (const InputFormat* format = format_of(path, place)) return format->open(path, options);
   return place == InputFormat::Place::kFolder ? no_log_in(path) : no_log_file(path);
 }
 
