@@ -364,6 +364,43 @@ TEST(BagSource, TakesTheCornersOfTagsWhereThereAreNoImages) {
   }
 }
 
+/// Focal lengths of 100 px as the image is, and of 200 px when it is rectified.
+std::string camera_info(double stamp_s) {
+  Wire wire = with_header(stamp_s, "camera");
+  wire.add<std::uint32_t>(480).add<std::uint32_t>(640).text("plumb_bob").add<std::uint32_t>(0);
+  for (const double value : {100.0, 0.0, 320.0, 0.0, 100.0, 240.0, 0.0, 0.0, 1.0}) wire.add(value);  // K
+  for (const double value : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) wire.add(value);          // R
+  for (const double value : {200.0, 0.0, 320.0, 0.0, 0.0, 200.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0})
+    wire.add(value);
+  for (int i = 0; i < 6; ++i) wire.add<std::uint32_t>(0);  // binning and region
+  return wire.add<std::uint8_t>(0).bytes();
+}
+
+TEST(BagSource, TakesTheCornersOfFiducialsAsOfImagesWithDistortion) {
+  for (const bool are_tags : {false, true}) {
+    auto made = std::make_unique<MadeBag>();
+    const auto camera = made->topic("/camera_info", "sensor_msgs/CameraInfo");
+    made->add(camera, 1.0, camera_info(1.0));
+    if (are_tags) {
+      const auto tags = made->topic("/seen", "apriltag_msgs/AprilTagDetectionArray");
+      made->add(tags, 1.0, tag_corners(1.0, {{10.5, 40.5}, {30.5, 41.5}, {31.5, 20.5}, {11.5, 19.5}}));
+    } else {
+      const auto fiducials = made->topic("/seen", "fiducial_msgs/FiducialArray");
+      Wire wire = with_header(1.0, "camera");
+      wire.add<std::int32_t>(1).add<std::uint32_t>(1).add<std::int32_t>(17).add<std::int32_t>(0);
+      for (const double value : {11.0, 19.0, 31.0, 20.0, 30.0, 41.0, 10.0, 40.0}) wire.add(value);
+      made->add(fiducials, 1.0, wire.bytes());
+    }
+    const auto source = source_of(std::move(made));
+    EXPECT_THAT(source->info().settings,
+                Contains(std::pair<std::string, std::string>("camera.fu_px", are_tags ? "200" : "100")));
+    EXPECT_THAT(source->info().settings, Contains(std::pair<std::string, std::string>("observe", "markers")));
+    const auto outlines = test::only<MarkerOutlines>(test::read_all(*source).events);
+    ASSERT_EQ(outlines.size(), 1U);
+    EXPECT_EQ(outlines[0].second[0].corners_px[0], Eigen::Vector2d(11.0, 19.0));
+  }
+}
+
 TEST(BagSource, RefusesABagWithoutMessages) {
   EXPECT_EQ(make_bag_source(std::make_unique<MadeBag>(), "made.bag", {}).error().message,
             "made.bag: the bag holds no messages");

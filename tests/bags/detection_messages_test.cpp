@@ -51,7 +51,7 @@ Values two_markers() {
           }};
 }
 
-Topic topic(std::string type, Encoding encoding, std::string definition = {}) {
+Topic topic_of(std::string type, Encoding encoding, std::string definition = {}) {
   return {
       .name = "/seen", .type = std::move(type), .encoding = encoding, .definition = std::move(definition)};
 }
@@ -77,7 +77,7 @@ void expect_two_markers(const Observations& seen, const std::string& of) {
 TEST(DetectionMessages, OfAllTypesAreReadWithoutADefinition) {
   for (const char* type : kDetections)
     for (const Encoding encoding : {Encoding::kRos1, Encoding::kCdr}) {
-      const Topic bare = topic(type, encoding);
+      const Topic bare = topic_of(type, encoding);
       ASSERT_GE(detection_rank(bare), 0) << type;
       const auto layouts = layouts_of(bare);
       ASSERT_TRUE(layouts.ok()) << layouts.error().message;
@@ -106,7 +106,7 @@ TEST(DetectionMessages, OfApriltagMsgsHavePlacesWhereTheirDefinitionSaysSo) {
         "string family\nint32 id\nfloat64[9] homography\ngeometry_msgs/Pose pose\n",
         "string family\nint32 id\nPoint centre\ngeometry_msgs/TransformStamped tag_transform\n"}) {
     const Topic tags =
-        topic("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr, std::string(kArray) + fields);
+        topic_of("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr, std::string(kArray) + fields);
     EXPECT_GE(detection_rank(tags), 0) << fields;
     EXPECT_FALSE(is_outline(tags)) << fields;
     auto reader = detection_reader(tags, {});
@@ -116,7 +116,7 @@ TEST(DetectionMessages, OfApriltagMsgsHavePlacesWhereTheirDefinitionSaysSo) {
         observations_of(*reader, FilledMessage(Encoding::kCdr, two_markers()).write(layouts->front().fields)),
         fields);
   }
-  const Topic corners = topic("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr);
+  const Topic corners = topic_of("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr);
   EXPECT_LT(detection_rank(corners), 0);
   EXPECT_TRUE(is_outline(corners));
 }
@@ -124,9 +124,9 @@ TEST(DetectionMessages, OfApriltagMsgsHavePlacesWhereTheirDefinitionSaysSo) {
 TEST(DetectionMessages, CountBearingsFromTheXAxisOfAnUprightFrame) {
   // The axes of this mount are those of the robot, and the sensor's axis is then the robot's left.
   const CameraMount upright{.pitch_deg = -90.0, .yaw_deg = 90.0};
-  auto reader = detection_reader(topic("landmark_msgs/LandmarkArray", Encoding::kCdr), upright);
+  auto reader = detection_reader(topic_of("landmark_msgs/LandmarkArray", Encoding::kCdr), upright);
   ASSERT_TRUE(reader.ok());
-  const auto layouts = layouts_of(topic("landmark_msgs/LandmarkArray", Encoding::kCdr));
+  const auto layouts = layouts_of(topic_of("landmark_msgs/LandmarkArray", Encoding::kCdr));
   const auto seen =
       observations_of(*reader, FilledMessage(Encoding::kCdr, two_markers()).write(layouts->front().fields));
   ASSERT_EQ(seen.size(), 2U);
@@ -146,7 +146,7 @@ std::string aruco_markers(std::initializer_list<std::pair<std::int64_t, double>>
 }
 
 TEST(DetectionMessages, LeaveOutAndCountWhatCannotBeUsed) {
-  auto reader = detection_reader(topic("ros2_aruco_interfaces/ArucoMarkers", Encoding::kCdr), {});
+  auto reader = detection_reader(topic_of("ros2_aruco_interfaces/ArucoMarkers", Encoding::kCdr), {});
   ASSERT_TRUE(reader.ok());
   const auto seen =
       observations_of(*reader, aruco_markers({{-1, 0.0}, {5, 0.0}, {std::int64_t{1} << 40U, 0.0}, {6, NAN}}));
@@ -178,7 +178,7 @@ TEST(DetectionMessages, TagsHaveTheSameBytesInTheirOlderDefinition) {
         "std_msgs/Header header\nAprilTagDetection[] detections\n========\n"
         "MSG: apriltag_msgs/AprilTagDetection\nstring family\nint32 id\nint32 hamming\nfloat32 goodness\n"
         "float32 decision_margin\nfloat64[2] centre\nfloat64[8] corners\nfloat64[9] homography\n"}) {
-    const Topic tags = topic("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr, definition);
+    const Topic tags = topic_of("apriltag_msgs/AprilTagDetectionArray", Encoding::kCdr, definition);
     const auto outlines = outlines_of(tags, wire.bytes());
     ASSERT_EQ(outlines.size(), 1U) << definition;
     EXPECT_EQ(outlines[0].id, 17);
@@ -189,7 +189,7 @@ TEST(DetectionMessages, TagsHaveTheSameBytesInTheirOlderDefinition) {
 }
 
 TEST(DetectionMessages, FiducialsHaveTheirCornersInOrder) {
-  const Topic fiducials = topic("fiducial_msgs/FiducialArray", Encoding::kRos1);
+  const Topic fiducials = topic_of("fiducial_msgs/FiducialArray", Encoding::kRos1);
   EXPECT_TRUE(is_outline(fiducials));
   EXPECT_LT(detection_rank(fiducials), 0);
   EXPECT_FALSE(outlines_are_rectified(fiducials.type)) << "aruco_detect looks at images as they come";

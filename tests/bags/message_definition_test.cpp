@@ -9,7 +9,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Topic topic(std::string type, Encoding encoding, std::string definition) {
+Topic stored_as(std::string type, Encoding encoding, std::string definition) {
   return {.name = "/t", .type = std::move(type), .encoding = encoding, .definition = std::move(definition)};
 }
 
@@ -26,7 +26,7 @@ TEST(MessageDefinition, OfTypesInUseIsKnown) {
         "geometry_msgs/Twist", "tf2_msgs/TFMessage", "apriltag_msgs/AprilTagDetectionArray",
         "fiducial_msgs/FiducialArray"})
     for (const Encoding encoding : {Encoding::kRos1, Encoding::kCdr}) {
-      const auto layouts = layouts_of(topic(type, encoding, ""));
+      const auto layouts = layouts_of(stored_as(type, encoding, ""));
       ASSERT_TRUE(layouts.ok()) << layouts.error().message;
       EXPECT_FALSE(layouts->front().fields.empty()) << type;
       EXPECT_FALSE(layouts->front().is_stored) << type;
@@ -36,7 +36,7 @@ TEST(MessageDefinition, OfTypesInUseIsKnown) {
 
 TEST(MessageDefinition, OfHeadersDiffersInRos1) {
   const auto header_of = [](Encoding encoding) {
-    const auto layouts = layouts_of(topic("geometry_msgs/PoseStamped", encoding, ""));
+    const auto layouts = layouts_of(stored_as("geometry_msgs/PoseStamped", encoding, ""));
     return names_of(layouts->front().fields.front().fields);
   };
   EXPECT_THAT(header_of(Encoding::kRos1), ElementsAre("seq", "stamp", "frame_id"));
@@ -44,7 +44,7 @@ TEST(MessageDefinition, OfHeadersDiffersInRos1) {
 }
 
 TEST(MessageDefinition, InTheBagComesFirstAndTheKnownOneNext) {
-  const auto layouts = layouts_of(topic("geometry_msgs/Twist", Encoding::kCdr, "float64 speed\n"));
+  const auto layouts = layouts_of(stored_as("geometry_msgs/Twist", Encoding::kCdr, "float64 speed\n"));
   ASSERT_TRUE(layouts.ok());
   ASSERT_EQ(layouts->size(), 2U);
   EXPECT_TRUE((*layouts)[0].is_stored);
@@ -57,7 +57,7 @@ TEST(MessageDefinition, ThatCannotBeReadLeavesTheKnownOne) {
        {"module geometry_msgs { module msg { struct Twist { geometry_msgs::msg::Vector3 linear; }; }; };",
         "// generated from rosidl\n#include \"geometry_msgs/msg/Vector3.idl\"\n", "{\"type\": \"object\"}",
         "Vector3 linear\nVector3", "my_msgs/Vector linear\nVector3 angular\n"}) {
-    const auto layouts = layouts_of(topic("geometry_msgs/Twist", Encoding::kCdr, stored));
+    const auto layouts = layouts_of(stored_as("geometry_msgs/Twist", Encoding::kCdr, stored));
     ASSERT_TRUE(layouts.ok()) << layouts.error().message;
     ASSERT_EQ(layouts->size(), 1U) << stored;
     EXPECT_FALSE(layouts->front().is_stored) << stored;
@@ -65,15 +65,15 @@ TEST(MessageDefinition, ThatCannotBeReadLeavesTheKnownOne) {
 }
 
 TEST(MessageDefinition, OfAnUnknownTypeIsAnError) {
-  EXPECT_THAT(layouts_of(topic("my_msgs/Mine", Encoding::kCdr, "")).error().message,
+  EXPECT_THAT(layouts_of(stored_as("my_msgs/Mine", Encoding::kCdr, "")).error().message,
               HasSubstr("/t: the definition of my_msgs/Mine does not include that of my_msgs/Mine"));
-  EXPECT_THAT(layouts_of(topic("my_msgs/Mine", Encoding::kCdr, "Other o\n")).error().message,
+  EXPECT_THAT(layouts_of(stored_as("my_msgs/Mine", Encoding::kCdr, "Other o\n")).error().message,
               HasSubstr("my_msgs/Other"));
 }
 
 TEST(MessageDefinition, WithOtherNamesCanHaveTheSameWire) {
   const auto fields = [](const char* definition) {
-    return *parse_definition(topic("my_msgs/Mine", Encoding::kCdr, definition));
+    return *parse_definition(stored_as("my_msgs/Mine", Encoding::kCdr, definition));
   };
   EXPECT_TRUE(have_same_wire(fields("float64[9] K\nstring a\n"), fields("float64[9] k\nstring b\n")));
   EXPECT_FALSE(have_same_wire(fields("float64[9] k\n"), fields("float64[8] k\n")));
