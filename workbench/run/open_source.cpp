@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "workbench/bags/open_bag.hpp"
 #include "workbench/run/input_formats.hpp"
 
 namespace waymark {
@@ -72,6 +73,8 @@ Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOpt
   const auto status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) return Error{"no such file or directory: " + path.string()};
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
+  if (!options.bag.more_bags.empty() && !bag::is_bag(path) && !bag::is_folder_of_bags(path))
+    return Error{path.string() + ": of several inputs each must be a ROS bag, all of one drive"};
   const auto place = fs::is_directory(status) ? InputFormat::Place::kFolder : InputFormat::Place::kFile;
   for (const InputFormat& format : input_formats())
     if (format.can_be(place) && format.recognises(path)) return format.open(path, options);
