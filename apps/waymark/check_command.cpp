@@ -12,6 +12,7 @@
 #include "workbench/logs/image_loader.hpp"
 #include "workbench/logs/json_text.hpp"
 #include "workbench/report/results.hpp"
+#include "workbench/run/check_gaps.hpp"
 #include "workbench/run/check_jumps.hpp"
 #include "workbench/run/check_log.hpp"
 
@@ -55,6 +56,7 @@ struct Contents {
   std::vector<eval::PositionObservation> placed;
   std::vector<eval::TruthSample> truth;
   LogSample sample;
+  std::vector<OdometryGap> gaps;
   std::optional<Stamp> start;
   std::vector<std::string> notes;
   std::optional<Error> error;
@@ -98,8 +100,9 @@ void look_at(const GreyImage& image, Contents& contents) {
   if (*lightest - *darkest < kMinContrast) ++contents.blank_images;
 }
 
-Contents read_contents(Source& source, const LandmarkSensor& sensor) {
+Contents read_contents(Source& source, const Config& config) {
   Contents contents;
+  GapSearch gaps(config.pipeline.max_hold_s);
   while (true) {
     auto event = source.next();
     if (!event) {
@@ -110,12 +113,14 @@ Contents read_contents(Source& source, const LandmarkSensor& sensor) {
     const auto& [stamp, stream, content] = **event;
     if (!contents.start) contents.start = stamp;
     contents.streams[name_of(content)].see(stamp);
-    contents.sample.add(**event, sensor);
+    contents.sample.add(**event, config.sensor);
+    gaps.add(**event);
     if (const auto* observations = std::get_if<Observations>(&content))
-      look_at(*observations, stamp, sensor.T_robot_sensor(), contents);
+      look_at(*observations, stamp, config.sensor.T_robot_sensor(), contents);
     if (const auto* image = std::get_if<Image>(&content)) look_at(*image->pixels, contents);
     if (const auto* truth = std::get_if<Truth>(&content)) contents.truth.push_back({stamp, *truth});
   }
+  contents.gaps = gaps.found();
   contents.notes = source.notes();
   return contents;
 }
@@ -147,6 +152,8 @@ std::vector<std::string> find_oddities(const CheckRequest& request, const Config
   if (contents.blank_images > 0)
     oddities.push_back(
         fmt::format("{} images show nothing: all pixels are nearly equal", contents.blank_images));
+  std::ranges::move(describe(contents.gaps, contents.start.value_or(Stamp{}), config.pipeline.max_hold_s),
+                    std::back_inserter(oddities));
   std::ranges::move(describe(jumps_of(contents.sample, config), contents.start.value_or(Stamp{})),
                     std::back_inserter(oddities));
   std::ranges::move(contradictions_in(contents.sample, config), std::back_inserter(oddities));
@@ -167,7 +174,9 @@ std::string advice(const CheckRequest& request, const Config& config, const LogI
                ? "nothing can be run: the camera is not calibrated: camera.yaml is missing"
                : "nothing can be run: the camera is not calibrated; `waymark calibrate camera PHOTOS -o "
                  "camera` writes a calibration, for --set input.camera_file=camera/camera.yaml";
-  std::string command = "waymark run " + request.input + " -o out";
+  std::string command = "waymark run " + request.input;
+  for (const auto& more : request.flags.more_inputs) command += " " + more;
+  command += " -o out";
   if (log.only_pixels) command += " --observe pixel";
   if (has("marker corners")) command += " --set markers.size_m=SIDE";
   for (const auto& assignment : request.flags.assignments) command += " --set " + assignment;
@@ -175,7 +184,8 @@ std::string advice(const CheckRequest& request, const Config& config, const LogI
 }
 
 double rate_hz(const LogTopic& topic, const LogInfo& log) {
-  return log.recorded_s > 0.0 ? static_cast<double>(topic.messages - 1) / log.recorded_s : 0.0;
+  if (topic.messages == 0 || log.recorded_s <= 0.0) return 0.0;
+  return static_cast<double>(topic.messages - 1) / log.recorded_s;
 }
 
 void print_topics(const LogInfo& log) {
@@ -238,7 +248,7 @@ Result<void> check_log(const CheckRequest& request) {
   auto opened = open_input(request.input, request.flags.settings());
   if (!opened) return opened.error();
   ImageLoader source(std::move(opened->source));
-  const Contents contents = read_contents(source, opened->config.sensor);
+  const Contents contents = read_contents(source, opened->config);
   const LogInfo& log = source.info();
   const auto oddities = find_oddities(request, opened->config, log, contents);
   const std::string next = advice(request, opened->config, log, contents);
@@ -254,14 +264,19 @@ void add_check(CLI::App& app, Work& work) {
       "check", "List what a log contains, what is missing or odd in it, and the command to run on it");
   auto request = std::make_shared<CheckRequest>();
   command
-      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
+      ->add_option("input", request->input,
+                   "a log folder, a ROS bag (or several of one drive), a published data set, or sim:SCENARIO")
       ->required()
       ->type_name("LOG");
   request->flags.add_to(*command);
   command->add_flag("--json", request->verbosity.json,
                     "print the findings as JSON on standard output and nothing else there");
   command->footer("Example:\n  waymark check MRCLAM_Dataset1 --set input.robot=2");
-  command->callback([&work, request] { work = [request] { return check_log(*request); }; });
+  command->allow_extras();
+  command->callback([&work, request, command] {
+    request->flags.take_more_inputs(*command, request->input);
+    work = [request] { return check_log(*request); };
+  });
 }
 
 }  // namespace waymark::app

@@ -36,8 +36,12 @@ struct SettingsFlags {
   std::vector<std::string> assignments;
   std::string seed;
   std::string threads;
+  std::vector<std::string> more_inputs;
 
   void add_to(CLI::App& command);
+  /// Takes the words behind `input` as further bags of its drive. Throws CLI::ExtrasError where `input` is no
+  /// file or folder, or a word is an option.
+  void take_more_inputs(const CLI::App& command, const std::string& input);
   [[nodiscard]] UserSettings settings() const;
 };
 

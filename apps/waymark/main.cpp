@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -60,12 +63,23 @@ void SettingsFlags::add_to(CLI::App& command) {
       ->type_name("N");
 }
 
+void SettingsFlags::take_more_inputs(const CLI::App& command, const std::string& input) {
+  more_inputs = command.remaining();
+  const bool is_option =
+      std::ranges::any_of(more_inputs, [](const std::string& word) { return word.starts_with('-'); });
+  std::error_code ignored;
+  if (is_option || (!more_inputs.empty() && !std::filesystem::exists(input, ignored)))
+    throw CLI::ExtrasError(command.get_name(), more_inputs);
+}
+
 UserSettings SettingsFlags::settings() const {
   UserSettings user;
   user.files.assign(files.begin(), files.end());
   user.assignments = assignments;
   if (!seed.empty()) user.flags.push_back({"--seed", "seed", seed});
   if (!threads.empty()) user.flags.push_back({"--threads", "threads", threads});
+  if (!more_inputs.empty())
+    user.flags.push_back({"LOG", "input.more_bags", fmt::format("{}", fmt::join(more_inputs, ","))});
   return user;
 }
 

@@ -59,7 +59,8 @@ void add_run(CLI::App& app, Work& work) {
   auto* command = app.add_subcommand("run", "Run a filter over a log; writes path, map, errors and a report");
   auto request = std::make_shared<RunRequest>();
   command
-      ->add_option("input", request->input, "a log folder, a ROS bag, a published data set, or sim:SCENARIO")
+      ->add_option("input", request->input,
+                   "a log folder, a ROS bag (or several of one drive), a published data set, or sim:SCENARIO")
       ->required()
       ->type_name("LOG");
   command->add_option("-o,--output", request->output, "folder for the results (default waymark-out)")
@@ -85,7 +86,11 @@ void add_run(CLI::App& app, Work& work) {
       "Writes trajectory.tum, trajectory_covariance.csv, map.csv, map.waymark, config.yaml, metrics.json\n"
       "and report.html. With --smooth also trajectory_smoothed.tum, map_smoothed.csv and calibration.yaml.\n"
       "calibration.yaml is also written with --set ekf.calibrate_odometry=true.");
-  command->callback([&work, request] { work = [request] { return run(*request); }; });
+  command->allow_extras();
+  command->callback([&work, request, command] {
+    request->flags.take_more_inputs(*command, request->input);
+    work = [request] { return run(*request); };
+  });
 }
 
 }  // namespace waymark::app

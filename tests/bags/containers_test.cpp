@@ -295,7 +295,7 @@ TEST(BagFiles, OthersAreRefusedInOneLine) {
   EXPECT_THAT(error("empty.mcap", "\x89MCAP0\r\n"), HasSubstr("the bag holds no messages"));
   EXPECT_THAT(error("other.db3", "SQLite format 3"),
               HasSubstr("other.db3: not a ROS 2 bag, or a damaged one"));
-  EXPECT_THAT(error("a.db3.zstd", "\x28\xb5\x2f\xfd"), HasSubstr("`zstd -d "));
+  EXPECT_THAT(error("a.db3.zstd", "\x28\xb5\x2f\xfd"), HasSubstr("a.db3.zstd: cannot be unpacked"));
   EXPECT_THAT(error("nothing.bag", ""), HasSubstr("nothing.bag: is empty; expected a ROS 1 bag"));
 }
 
@@ -323,7 +323,7 @@ TEST(BagFiles, AFileThatAFolderNamesAThousandTimesIsOneFile) {
 TEST(BagFiles, AFolderSaysWhichOfItsFilesAreMissing) {
   const test::TempFolder folder;
   folder.write("metadata.yaml", "rosbag2_bagfile_information:\n  relative_file_paths: [gone_0.db3]\n");
-  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("gone_0.db3"));
+  EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("gone_0.db3 is missing"));
   folder.write("metadata.yaml", "rosbag2_bagfile_information: [\n");
   EXPECT_THAT(open_source(folder.path()).error().message, HasSubstr("metadata.yaml:2"));
 }

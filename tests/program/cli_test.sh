@@ -110,6 +110,7 @@ refuses 2 'y.mat: damaged MATLAB file' run y.mat -o o
 does sim square -o log --seed 3
 does check log
 grep -q 'run: waymark run log -o out' out.txt || fail 'check names no command to run'
+refuses 2 'log: of several inputs each must be a ROS bag' check log log
 does check sim:forest
 grep -q 'run: waymark run sim:forest -o out' out.txt || fail 'check names no command for a log without identities'
 does sim forest -o forest --set sim.laps=1

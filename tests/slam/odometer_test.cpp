@@ -61,15 +61,41 @@ TEST(Odometer, HoldsTheLastSpeedAndSteeringAngle) {
   EXPECT_TRUE(test::matrix_near(test::to_vector(sum(motions)), test::to_vector(whole), 1e-12));
 }
 
-TEST(Odometer, StandsStillInAGapLongerThanTheHoldAndCountsIt) {
+TEST(Odometer, NoLongerHoldsASpeedInAGapAndIsNotSure) {
   Odometer odometer({}, 2.0);
   (void)odometer.advance(at(0.0), nullptr);
   odometer.add({at(0.0), Velocity{1.0, 0.0}});
   const std::vector<Motion> motions{odometer.advance(at(1.5), nullptr), odometer.advance(at(4.0), nullptr),
                                     odometer.advance(at(9.0), nullptr)};
   EXPECT_NEAR(sum(motions).x_m, 2.0, 1e-12);
-  EXPECT_TRUE(is_still(motions[2]));
-  EXPECT_EQ(odometer.gaps(), 1);
+  EXPECT_EQ(motions[2].increment, Pose2{});
+  EXPECT_EQ(motions[2].duration_s, 5.0);
+  EXPECT_NEAR(motions[2].covariance(0, 0), 1.0 * 2.0 * 5.0, 1e-12);  // 1 m/s, another every 2 s
+  const std::vector<OdometryGap> gaps{{at(0.0), at(9.0), true}};
+  EXPECT_EQ(odometer.gaps().all(), gaps);
+}
+
+/// The sum of variances along x over ten seconds without a reading, cut into `steps`.
+double variance_of_gap_m2(int steps, bool next_is_known) {
+  Odometer odometer({}, 2.0);
+  (void)odometer.advance(at(0.0), nullptr);
+  odometer.add({at(0.0), OdometryPose{}});
+  const Event next{at(10.0), OdometryPose{}};
+  double sum_m2 = 0.0;
+  for (int i = 1; i <= steps; ++i)
+    sum_m2 += odometer.advance(at(10.0 * i / steps), next_is_known ? &next : nullptr).covariance(0, 0);
+  return sum_m2;
+}
+
+TEST(Odometer, IsAsUnsureOfAGapHoweverItIsCut) {
+  EXPECT_GT(variance_of_gap_m2(1, false), 0.0);
+  EXPECT_NEAR(variance_of_gap_m2(1, false), variance_of_gap_m2(7, false), 1e-12);
+  EXPECT_NEAR(variance_of_gap_m2(2, true), variance_of_gap_m2(7, true), 1e-12);
+}
+
+TEST(Odometer, AGapBetweenTwoPosesIsMeasuredAsAWhole) {
+  EXPECT_EQ(variance_of_gap_m2(1, true), 0.0);
+  EXPECT_GT(variance_of_gap_m2(2, true), 0.0);
 }
 
 TEST(Odometer, InterpolatesWheelAnglesUpToTheNextReading) {

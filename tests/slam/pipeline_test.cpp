@@ -185,7 +185,32 @@ TEST(Pipeline, CarriesOnOverAGapInTheOdometry) {
   Fixture f({.max_hold_s = 1.0});
   f.push({speed(0.0, 1.0), speed(30.0, 1.0), seen(31.0, {landmark_observation(1)})});
   EXPECT_NEAR(f.filter.poses.at(0).x_m, 2.0, 1e-9);
-  EXPECT_EQ(f.pipeline.counts().odometry_gaps, 1);
+  const std::vector<OdometryGap> gaps{{at(0.0), at(30.0)}};
+  EXPECT_EQ(f.pipeline.counts().odometry_gaps, gaps);
+}
+
+Event pose(double seconds, double x_m) { return {at(seconds), OdometryPose{{x_m, 0.0, 0.0}}}; }
+
+TEST(Pipeline, WaitsForTheOdometryBehindAnObservationHoweverFarItIs) {
+  Fixture f({.max_hold_s = 60.0});
+  f.push({pose(0.0, 0.0), seen(0.5, {landmark_observation(1)}), seen(9.0, {landmark_observation(1)}),
+          pose(10.0, 4.0), seen(10.5, {landmark_observation(1)})});
+  ASSERT_EQ(f.filter.poses.size(), 3U);
+  EXPECT_NEAR(f.filter.poses[0].x_m, 0.2, 1e-9);
+  EXPECT_NEAR(f.filter.poses[1].x_m, 3.6, 1e-9);
+}
+
+double variance_at_the_end(std::vector<Event> events) {
+  Fixture f({.max_hold_s = 2.0});
+  f.push(std::move(events));
+  return f.filter.pose().covariance(0, 0);
+}
+
+TEST(Pipeline, IsNotSureWhereTheRobotIsWhenItsOdometryBeginsLateOrEndsEarly) {
+  const auto observation = [](double seconds) { return seen(seconds, {landmark_observation(1)}); };
+  EXPECT_EQ(variance_at_the_end({observation(0.0), pose(1.0, 0.0), pose(2.0, 0.0), observation(2.5)}), 0.0);
+  EXPECT_GT(variance_at_the_end({observation(0.0), pose(9.0, 0.0)}), 1.0);
+  EXPECT_GT(variance_at_the_end({pose(0.0, 0.0), pose(1.0, 0.0), observation(9.0)}), 1.0);
 }
 
 constexpr StreamId kWheelDevice{0, 1};

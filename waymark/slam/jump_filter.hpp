@@ -44,6 +44,9 @@ class JumpFilter {
   /// Takes it in, and returns what continued() says that it is.
   const Value& add(Stamp stamp, const Value& raw);
 
+  /// Of the steps so far, per second.
+  [[nodiscard]] const ReadingStep& fastest() const { return fastest_; }
+
   [[nodiscard]] const OdometryJumps& jumps() const { return jumps_; }
 
  private:

@@ -8,6 +8,9 @@
 namespace waymark {
 namespace {
 
+// m/s, m/s, rad/s: a robot in a room, as long as its own speeds are not known.
+const ReadingStep kSlowRobot(0.5, 0.0, 0.5);
+
 WheelAngles interpolate(const WheelAngles& a, const WheelAngles& b, double fraction) {
   return {a.left_rad + fraction * (b.left_rad - a.left_rad),
           a.right_rad + fraction * (b.right_rad - a.right_rad)};
@@ -84,6 +87,7 @@ Odometer::Odometer(const OdometryOptions& options, double max_hold_s)
     : options_(options),
       turn_bias_(options.standing),
       max_hold_(duration_from_seconds(max_hold_s)),
+      gaps_(max_hold_),
       gyro_(options.arc, max_hold_),
       wheel_jumps_(options.wheels),
       pose_jumps_(options.wheels) {}
@@ -99,8 +103,33 @@ Motion Odometer::advance(Stamp stamp, const Event* next, const Event* next_yaw_r
     motion.duration_s = to_seconds(stamp - *now_);
     take_bias_out(motion.increment, motion.duration_s);
   }
+  gaps_.see(stamp);
+  if (const double part_s = unknown_s(stamp, next); part_s > 0.0) {
+    motion = unsure(motion, fastest(), to_seconds(max_hold_) * part_s);
+    motion.duration_s = to_seconds(stamp - *now_);
+  }
   now_ = stamp;
   return motion;
+}
+
+/// How much of the time since the last call has a motion that no reading tells. What lies between two
+/// readings of a pose or of wheels as a whole is measured by them, however long it is.
+double Odometer::unknown_s(Stamp stamp, const Event* next) const {
+  if (!now_) return 0.0;
+  const bool bridged = next != nullptr && !held_;
+  const Stamp known = *gaps_.known();
+  if (bridged && next->stamp - known <= max_hold_) return 0.0;
+  if (bridged && track_ && *now_ <= known && stamp >= next->stamp) return 0.0;
+  const Stamp since = std::max(*now_, bridged ? known : known + max_hold_);
+  return std::max(0.0, to_seconds(stamp - since));
+}
+
+/// Per second; of a robot that has not moved so far that of a slow one.
+ReadingStep Odometer::fastest() const {
+  ReadingStep fastest(speeds_.fastest()[0], 0.0, speeds_.fastest()[1]);
+  if (pose_now_) fastest = pose_jumps_.fastest();
+  if (wheels_now_) fastest = robot_sigma(wheel_jumps_.fastest(), options_.wheels.track_m);
+  return fastest.isZero(0.0) ? kSlowRobot : fastest;
 }
 
 void Odometer::take_bias_out(Pose2& increment, double dt_s) {
@@ -111,7 +140,6 @@ void Odometer::take_bias_out(Pose2& increment, double dt_s) {
 
 Motion Odometer::advance_held(Stamp stamp) {
   const Stamp held_until = held_since_ + max_hold_;
-  if (stamp > held_until && *now_ <= held_until) ++gaps_;
   const Duration held = std::min(stamp, held_until) - *now_;
   if (held <= Duration{0}) return {};
   const double held_s = to_seconds(held);
@@ -164,10 +192,12 @@ bool Odometer::add(const Event& event) {
   if (!followed) followed = track_of(event);
   if (!follows(event)) return false;
   now_ = event.stamp;
-  if (yaw_rate != nullptr)
+  if (yaw_rate != nullptr) {
     gyro_.add(event.stamp, *yaw_rate);
-  else
+  } else {
     last_reading_ = event.stamp;
+    gaps_.see_reading(event.stamp);
+  }
   if (const auto* velocity = std::get_if<Velocity>(&event.content)) {
     hold(event.stamp, *velocity);
   } else if (const auto* steering = std::get_if<Steering>(&event.content)) {

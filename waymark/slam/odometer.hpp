@@ -8,6 +8,7 @@
 #include "waymark/models/odometry.hpp"
 #include "waymark/slam/gyro.hpp"
 #include "waymark/slam/jump_filter.hpp"
+#include "waymark/slam/odometry_gaps.hpp"
 #include "waymark/slam/turn_bias.hpp"
 
 namespace waymark {
@@ -40,14 +41,18 @@ class SampledTrack {
 /// Turns whatever kind of odometry a log has into the motion between any two stamps. The first stream of
 /// odometry that appears counts; a log with two would otherwise move twice. Readings that no robot can follow
 /// (JumpFilter, SpeedFilter) make no motion: it goes on as before them, with noise that covers what was not
-/// measured. Where a gyro tells the yaw rate, it holds the heading (Gyro). Learns, whenever the robot
-/// stands, how its heading turns by itself, and takes that out.
+/// measured. Where a gyro tells the yaw rate, it holds the heading (Gyro). Where readings are missing for
+/// longer than they may be held the motion is not known: poses and wheels go evenly to the next reading, if that
+/// has come, and a speed counts no longer; the noise is that of a robot that takes another speed, up to the fastest
+/// so far, every `max_hold_s`. Learns, whenever the robot stands, how its heading turns by itself, and takes that
+/// out.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
 
   /// The motion from the stamp of the last call to `stamp` >= that one. `next` is the first odometry event
-  /// that it follows after `stamp`, `next_yaw_rate` the first yaw rate, if they have arrived.
+  /// that it follows, or may follow if there was none so far, at or after `stamp`, `next_yaw_rate` the first
+  /// yaw rate, if they have arrived.
   [[nodiscard]] Motion advance(Stamp stamp, const Event* next, const Event* next_yaw_rate = nullptr);
 
   /// A reading at the stamp that advance() just reached. False: of another stream than it follows.
@@ -57,6 +62,9 @@ class Odometer {
   /// first.
   [[nodiscard]] bool follows(const Event& event) const;
 
+  /// Its readings are speeds, which hold until the next one.
+  [[nodiscard]] bool holds_speeds() const { return held_.has_value(); }
+
   [[nodiscard]] bool has_yaw_rate() const { return gyro_track_.has_value(); }
 
   /// What the gyro is like.
@@ -65,8 +73,8 @@ class Odometer {
   /// Of the odometry so far, if there was any.
   [[nodiscard]] std::optional<OdometryKind> kind() const;
 
-  /// Times that odometry was missing for longer than it may be held: the robot was taken to stand still.
-  [[nodiscard]] int gaps() const { return gaps_; }
+  /// Where odometry was missing for longer than it may be held.
+  [[nodiscard]] const OdometryGaps& gaps() const { return gaps_; }
 
   /// What no robot can do, in the odometry so far.
   [[nodiscard]] const OdometryJumps& jumps() const;
@@ -82,6 +90,8 @@ class Odometer {
 
   static Track track_of(const Event& event) { return {event.content.index(), event.stream}; }
   void take_bias_out(Pose2& increment, double dt_s);
+  [[nodiscard]] double unknown_s(Stamp stamp, const Event* next) const;
+  [[nodiscard]] ReadingStep fastest() const;
   [[nodiscard]] Motion advance_held(Stamp stamp);
   [[nodiscard]] Motion advance_wheels(Stamp stamp, const Event* next);
   [[nodiscard]] Motion advance_pose(Stamp stamp, const Event* next);
@@ -94,7 +104,7 @@ class Odometer {
   std::optional<Track> gyro_track_;
   std::optional<Stamp> now_;
   Stamp last_reading_;  // of the odometry
-  int gaps_ = 0;
+  OdometryGaps gaps_;
 
   std::optional<std::variant<Velocity, Steering>> held_;  // until the next one
   Stamp held_since_;

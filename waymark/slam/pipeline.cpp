@@ -6,6 +6,16 @@
 namespace waymark {
 namespace {
 
+/// Images that wait for the next odometry may take so many bytes: half a minute of 640 x 480 at 30 Hz.
+constexpr std::size_t kMostWaiting = 256'000'000;
+
+std::size_t pixel_bytes(const Event& event) {
+  const auto* image = std::get_if<Image>(&event.content);
+  if (image == nullptr || !image->pixels) return 0;
+  return static_cast<std::size_t>(image->pixels->width_px()) *
+         static_cast<std::size_t>(image->pixels->height_px());
+}
+
 /// The part of a measurement that is asked for, or nothing if it is not there.
 std::optional<Measurement> part(const Measurement& value, Observe observe) {
   const auto* both = std::get_if<RangeBearing>(&value);
@@ -66,7 +76,14 @@ Pipeline::Pipeline(Filter& filter, const PipelineOptions& options, const Odometr
 void Pipeline::push(Event event) {
   if (!accept(event)) return;
   insert(std::move(event));
-  while (!waiting_.empty() && waiting_.front().stamp + window_ < waiting_.back().stamp) process_front_group();
+  while (front_is_ready()) process_front_group();
+}
+
+/// Nothing comes before it any more, and the odometry that bridges it has come, unless that is too far away.
+bool Pipeline::front_is_ready() const {
+  if (waiting_.empty() || waiting_.front().stamp + window_ >= waiting_.back().stamp) return false;
+  return odometer_.holds_speeds() || newest_odometry_ >= waiting_.front().stamp ||
+         waiting_bytes_ > kMostWaiting;
 }
 
 void Pipeline::hold(Event event) {
@@ -125,13 +142,18 @@ void Pipeline::finish() {
 void Pipeline::insert(Event event) {
   auto place = waiting_.end();
   while (place != waiting_.begin() && std::prev(place)->stamp > event.stamp) --place;
+  if (may_follow(event)) newest_odometry_ = std::max(newest_odometry_, event.stamp);
+  waiting_bytes_ += pixel_bytes(event);
   waiting_.insert(place, std::move(event));
 }
 
+/// The odometry that counts, or that will because it is the first.
+bool Pipeline::may_follow(const Event& event) const {
+  return is_odometry(event.content) && (!odometer_.kind() || odometer_.follows(event));
+}
+
 const Event* Pipeline::next_odometry() const {
-  const auto found = std::ranges::find_if(waiting_, [this](const Event& event) {
-    return is_odometry(event.content) && odometer_.follows(event);
-  });
+  const auto found = std::ranges::find_if(waiting_, [this](const Event& event) { return may_follow(event); });
   return found == waiting_.end() ? nullptr : &*found;
 }
 
@@ -158,6 +180,7 @@ void Pipeline::process_front_group() {
   batch_.clear();
   for (; !waiting_.empty() && waiting_.front().stamp == stamp; waiting_.pop_front()) {
     const Event& event = waiting_.front();
+    waiting_bytes_ -= pixel_bytes(event);
     if (const auto* observations = std::get_if<Observations>(&event.content)) {
       collect(*observations);
     } else if (const auto* outlines = std::get_if<MarkerOutlines>(&event.content)) {
@@ -251,7 +274,7 @@ void Pipeline::take(const Image& image) {
 
 PipelineCounts Pipeline::counts() const {
   PipelineCounts counts = counts_;
-  counts.odometry_gaps = odometer_.gaps();
+  counts.odometry_gaps = odometer_.gaps().all();
   counts.odometry_jumps = odometer_.jumps();
   counts.gyro = odometer_.gyro();
   return counts;

@@ -32,7 +32,8 @@ struct Step {
 
 /// Sorts events by stamp, integrates odometry up to the stamp of each scan, passes all observations of
 /// one stamp to the filter as one batch, and continues over gaps. Events of a file are pushed and may
-/// arrive late by up to the reordering window; live ones are held, and processed up to the horizon of
+/// arrive late by up to the reordering window; they wait for the odometry behind them, as long as their
+/// images take no more than 256 MB; live ones are held, and processed up to the horizon of
 /// each stream, so that no pose waits longer than it must. Images go to the front end, if there is one,
 /// which may start on them as soon as they arrive; an image of the wrong size, or one that repeats the
 /// one before, is skipped. Ground truth is ignored.
@@ -65,6 +66,8 @@ class Pipeline {
  private:
   [[nodiscard]] bool accept(Event& event);
   void insert(Event event);
+  [[nodiscard]] bool front_is_ready() const;
+  [[nodiscard]] bool may_follow(const Event& event) const;
   void process_front_group();
   [[nodiscard]] bool front_group_observes() const;
   void predict(Stamp stamp);
@@ -90,6 +93,8 @@ class Pipeline {
   Duration response_;  ///< of the robot to what its odometry reports
 
   std::deque<Event> waiting_;  // by stamp
+  std::size_t waiting_bytes_ = 0;
+  Stamp newest_odometry_{Duration::min()};
   ReleaseHorizon horizon_;
   std::optional<std::uint16_t> robot_;  // of the first event
   std::optional<Stamp> processed_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "waymark/slam/gyro_findings.hpp"
+#include "waymark/slam/odometry_gaps.hpp"
 #include "waymark/slam/odometry_jumps.hpp"
 
 namespace waymark {
@@ -22,7 +24,7 @@ struct PipelineCounts {
   std::int64_t outlines = 0;         ///< of these what another program looked into: corners of markers
   std::int64_t misfits = 0;          ///< images without pixels or of another size than the camera's
   std::int64_t repeats = 0;          ///< images with the stamp or all the pixels of the one before
-  int odometry_gaps = 0;
+  std::vector<OdometryGap> odometry_gaps;
   OdometryJumps odometry_jumps;
   GyroFindings gyro;
 };

@@ -26,6 +26,9 @@ void describe(Schema& schema, BagOptions& o) {
               "ROS camera_info YAML file of the camera, used instead of the calibration in the bag; empty: "
               "use the bag's",
               Shown::kAlways);
+  schema.text("input.more_bags", o.more_bags,
+              "further bags of the same drive, recorded by the same clock, separated by commas; set by more "
+              "than one INPUT");
   schema.choice("input.stamps", o.stamps, {"header", "recorded"},
                 "time of a message: from its header, or when it was recorded (for clocks that disagree)",
                 Shown::kAlways);

@@ -22,6 +22,7 @@ struct BagOptions {
   std::string left_joint;   ///< of the wheels in a JointState
   std::string right_joint;
   std::string camera_file;  ///< ROS camera_info YAML; ranks above the bag's own
+  std::string more_bags;    ///< of the same drive, separated by commas
   Stamps stamps = Stamps::kHeader;
   std::optional<CameraMount>
       mount;  ///< no key of its own: the user's camera.mount_*, above the bag's tf_static

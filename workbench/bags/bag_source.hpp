@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -12,13 +13,20 @@
 
 namespace waymark {
 
-/// A bag as a log. Messages become events in the order of their stamps as far as a window of 5 s, or of 64
-/// MB, of what was recorded allows. Images of CompressedImage stay packed until someone loads them. Messages
-/// that do not fit their definition, hold what is not finite, or whose stamps jump are skipped and counted; a
-/// damaged bag is read as far as it goes, and notes say so. `name` stands for the bag in errors.
+/// Opens the same bag once more.
+using ReopenBag = std::function<Result<std::unique_ptr<bag::Reader>>()>;
+
+/// A bag as a log. It is looked through once to find the order of time of its messages (find_time_order);
+/// then these become events in that order. Images of CompressedImage stay packed until someone loads them.
+/// Messages that do not fit their definition, hold what is not finite, or whose stamps jump are skipped and
+/// counted; a damaged bag is read as far as it goes, and notes say so. `name` stands for the bag in errors.
+/// Where messages lie more than a second behind later ones in the file, `reopen` gives each topic a reader
+/// of its own; without it more is held. Memory: below 100 bytes per message that is used, and what is held,
+/// at most 256 MB.
 [[nodiscard]] Result<std::unique_ptr<Source>> make_bag_source(std::unique_ptr<bag::Reader> bag,
                                                               const std::string& name,
-                                                              const BagOptions& options);
+                                                              const BagOptions& options,
+                                                              const ReopenBag& reopen = {});
 
 /// Opens a bag of ROS 1 or 2, or any MCAP file, as a log.
 [[nodiscard]] Result<std::unique_ptr<Source>> open_bag_source(const std::filesystem::path& path,

@@ -9,6 +9,7 @@
 
 #include "workbench/bags/byte_stream.hpp"
 #include "workbench/bags/decompress.hpp"
+#include "workbench/bags/unpacked_file.hpp"
 
 namespace waymark::bag {
 namespace {
@@ -30,8 +31,8 @@ class MemoryStream final : public ByteStream {
 
 class JoinedBag final : public Reader {
  public:
-  JoinedBag(std::vector<std::unique_ptr<Reader>> parts, bool packed, std::vector<std::string> notes)
-      : parts_(std::move(parts)), packed_(packed), notes_(std::move(notes)) {
+  JoinedBag(std::vector<std::unique_ptr<Reader>> parts, std::vector<std::string> notes)
+      : parts_(std::move(parts)), notes_(std::move(notes)) {
     for (const auto& part : parts_) {
       const Summary& summary = part->summary();
       summary_.format = summary.format;
@@ -67,10 +68,9 @@ class JoinedBag final : public Reader {
         continue;
       }
       message->topic = places_[part_][message->topic];
-      if (!packed_ || unpack(*message)) return message;
-      add_note(notes_,
-               fmt::format("messages of {} skipped that are not zstd frames, although metadata.yaml says so",
-                           summary_.topics[message->topic].name));
+      const Topic& topic = summary_.topics[message->topic];
+      if (topic.encoding != Encoding::kCdr || !is_zstd(message->bytes) || unpack(*message)) return message;
+      add_note(notes_, fmt::format("messages of {} skipped whose zstd frames are damaged", topic.name));
     }
     return std::nullopt;
   }
@@ -103,7 +103,6 @@ class JoinedBag final : public Reader {
   }
 
   std::vector<std::unique_ptr<Reader>> parts_;
-  bool packed_;
   std::vector<std::string> notes_;
   std::vector<std::vector<std::size_t>> places_;  // of each part's topics among all
   Summary summary_;
@@ -113,9 +112,9 @@ class JoinedBag final : public Reader {
 
 }  // namespace
 
-std::unique_ptr<Reader> join_bags(std::vector<std::unique_ptr<Reader>> parts, bool packed,
+std::unique_ptr<Reader> join_bags(std::vector<std::unique_ptr<Reader>> parts,
                                   std::vector<std::string> notes) {
-  return std::make_unique<JoinedBag>(std::move(parts), packed, std::move(notes));
+  return std::make_unique<JoinedBag>(std::move(parts), std::move(notes));
 }
 
 }  // namespace waymark::bag

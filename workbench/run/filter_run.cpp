@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "workbench/run/check_gaps.hpp"
 #include "workbench/run/check_jumps.hpp"
 #include "workbench/run/check_log.hpp"
 #include "workbench/run/check_refusals.hpp"
@@ -28,7 +29,6 @@ std::vector<std::string> describe_counts(const PipelineCounts& counts) {
   note(counts.robots_seen, "observations dropped: of other robots, which are not landmarks");
   note(counts.misfits, "images skipped: their size is not camera.width_px x camera.height_px");
   note(counts.repeats, "images skipped: same stamp or same pixels as the image before");
-  note(counts.odometry_gaps, "gaps in the odometry longer than pipeline.max_hold_s");
   return lines;
 }
 
@@ -146,6 +146,8 @@ std::vector<std::string> find_contradictions(const Recording& recording, const L
   std::vector<std::string> lines;
   if (recording.trajectory.empty()) return lines;
   const Stamp start = recording.trajectory.front().stamp;
+  std::ranges::move(describe(recording.counts.odometry_gaps, start, config.pipeline.max_hold_s),
+                    std::back_inserter(lines));
   std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
   std::ranges::move(describe(recording.losses, start), std::back_inserter(lines));
   std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));

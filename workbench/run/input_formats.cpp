@@ -70,6 +70,11 @@ std::span<const InputFormat> input_formats() {
       InputFormat{"Victoria Park's graph", "a .txt file that begins with ODOMETRY", Place::kFile,
                   is_victoria_park_graph,
                   [](const fs::path& file, const InputOptions&) { return open_victoria_park_graph(file); }},
+      InputFormat{"a folder of ROS 1 bags", "the .bag files of one recording", Place::kEither,
+                  bag::is_folder_of_bags,
+                  [](const fs::path& path, const InputOptions& options) {
+                    return open_bag_source(path, options.bag);
+                  }},
       InputFormat{"a landmark graph of g2o or PyFactorGraph", "a file that begins with VERTEX_SE2",
                   Place::kFile, is_landmark_graph,
                   [](const fs::path& file, const InputOptions&) { return open_landmark_graph(file); }}};

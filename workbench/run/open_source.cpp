@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "workbench/bags/open_bag.hpp"
 #include "workbench/run/input_formats.hpp"
 
 namespace waymark {
@@ -86,6 +87,8 @@ Result<std::unique_ptr<Source>> open_source(const fs::path& path, const InputOpt
   const auto status = fs::status(path, failed);
   if (status.type() == fs::file_type::not_found) return Error{"no such file or directory: " + path.string()};
   if (failed) return Error{"cannot read " + path.string() + ": " + failed.message()};
+  if (!options.bag.more_bags.empty() && !bag::is_bag(path) && !bag::is_folder_of_bags(path))
+    return Error{path.string() + ": of several inputs each must be a ROS bag, all of one drive"};
   const auto place = place_of(path);
   if (const InputFormat* format = format_of(path, place)) return format->open(path, options);
   return place == InputFormat::Place::kFolder ? no_log_in(path) : no_log_file(path);
