@@ -77,6 +77,7 @@ class LiveRecording final : public Source {
   [[nodiscard]] const LogInfo& info() const override { return info_; }
 
   [[nodiscard]] Result<std::optional<Event>> next() override {
+    until_.reset();
     while (const auto message = bag_->next()) {
       auto event = message->topic == events_ ? take_event(message->bytes) : take_image(message->bytes);
       if (!event || *event) return event;
@@ -124,7 +125,7 @@ class LiveRecording final : public Source {
   std::size_t events_ = 0;
   std::optional<bag::TopicReader> image_reader_;
   std::optional<std::pair<Stamp, StreamId>> image_;  // whose message comes next
-  std::optional<Stamp> until_;
+  std::optional<Stamp> until_;                       // told since the event before
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const 
 Recorder::~Recorder() { stop_thread(); }
 
 void Recorder::hold(const Event& event, Stamp now) {
-  write_until();
+  write_until(now);
   const auto* image = std::get_if<Image>(&event.content);
   if (image == nullptr) {
     auto json = Json::parse(to_json_event(event.stamp, event.content), nullptr, false);
@@ -76,10 +76,11 @@ void Recorder::add(const StampedPose& pose) {
   push({poses_, pose.stamp, pose.stamp, ros2::pose_with_covariance(pose.stamp, "map", pose.estimate)});
 }
 
-/// Only the last of several before an event changes anything.
-void Recorder::write_until() {
+/// Only the last of several before an event changes anything; what waits after the last event is processed at
+/// the end anyhow.
+void Recorder::write_until(Stamp now) {
   if (!until_) return;
-  push_event(json_text(Json{{"until", to_string(*until_)}}), *until_);
+  push_event(json_text(Json{{"until", to_string(*until_)}}), now);
   until_.reset();
 }
 
@@ -126,7 +127,6 @@ void Recorder::stop_thread() {
 }
 
 Result<void> Recorder::close() {
-  write_until();
   stop_thread();
   const auto closed = writer_.close();
   bytes_written_ = writer_.bytes_written();

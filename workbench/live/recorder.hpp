@@ -64,7 +64,7 @@ class Recorder {
   explicit Recorder(McapWriter writer);
   void push(Message message);
   void push_event(std::string line, Stamp now);
-  void write_until();
+  void write_until(Stamp now);
   void work(const std::stop_token& stop);
   void stop_thread();
 

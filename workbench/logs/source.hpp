@@ -59,7 +59,8 @@ class Source {
 
   /// How events were processed in a session that is replayed.
   struct Replay {
-    std::optional<Stamp> until;  ///< up to here before the event that next() gave last; empty: nothing yet
+    /// Up to here between the event that next() gave last and the one before; empty: nothing.
+    std::optional<Stamp> until;
   };
   /// Nothing where the log does not say: its events are put in order as they come.
   [[nodiscard]] virtual std::optional<Replay> replay() const { return std::nullopt; }
