@@ -70,13 +70,26 @@ eval::TruthTrack without_headings(const eval::TruthTrack& track) {
   return eval::TruthTrack(std::move(samples));
 }
 
+/// One line for each trajectory that turns with one orientation in all rows.
+std::vector<std::string> paths_without_orientation(const EvalResult& result, const EvalTruth& truth) {
+  std::vector<std::string> lines;
+  for (const auto& [file, name] : {std::pair(&result.file, "the result"), {&truth.file, "the ground truth"}})
+    if (*file && !eval::has_orientation((*file)->path))
+      lines.push_back(fmt::format(
+          "all rows of {} have the same orientation, which is taken as not measured: headings are not used",
+          name));
+  return lines;
+}
+
 eval::Evaluation evaluate_in_plane(const EvalResult& result, const EvalTruth& truth, WantedPlane plane) {
   const Trajectory path = result.file ? in_plane(result.file->path, plane) : result.trajectory;
   auto track =
       truth.file ? eval::TruthTrack::from_trajectory(in_plane(truth.file->path, plane)) : truth.track;
-  const auto lacks_headings = [](const auto& file) { return file && !eval::has_orientation(file->path); };
-  if (lacks_headings(result.file) || lacks_headings(truth.file)) track = without_headings(track);
-  return eval::evaluate(path, result.map, track, truth.landmarks, {}, truth.options);
+  const std::vector<std::string> without = paths_without_orientation(result, truth);
+  if (!without.empty()) track = without_headings(track);
+  auto evaluation = eval::evaluate(path, result.map, track, truth.landmarks, {}, truth.options);
+  evaluation.notes.insert(evaluation.notes.begin(), without.begin(), without.end());
+  return evaluation;
 }
 
 std::string span_of(const SpacePath& path) {

@@ -147,6 +147,9 @@ does eval upright.tum --truth upright.tum
 grep -q 'scored in space' out.txt || fail 'eval does not say that a path is scored in space'
 does eval upright.tum --truth upright.tum --plane xz
 ! grep -q 'scored in space' out.txt || fail 'eval does not score in the plane that it is told'
+awk '{ print $1, $2, $3, $4, 0, 0, 0, 1 }' whole/trajectory.tum >unturned.tum
+does eval unturned.tum --truth whole/trajectory.tum
+grep -q 'rows of the result have the same orientation' out.txt || fail 'eval takes one orientation as measured'
 awk '{ print 1, 0, 0, $2, 0, 1, 0, $3, 0, 0, 1, $4 }' whole/trajectory.tum >kitti.txt
 does eval kitti.txt --truth kitti.txt
 head -n 5 kitti.txt >short.txt
