@@ -7,6 +7,7 @@
 
 #include "waymark/slam/pipeline.hpp"
 
+#include "workbench/run/check_gyro.hpp"
 #include "workbench/run/check_jumps.hpp"
 #include "workbench/run/check_log.hpp"
 #include "workbench/run/check_refusals.hpp"
@@ -164,6 +165,7 @@ std::vector<std::string> find_contradictions(const Recording& recording, const L
   if (recording.trajectory.empty()) return lines;
   const Stamp start = recording.trajectory.front().stamp;
   std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
+  std::ranges::move(describe(recording.counts.gyro, start), std::back_inserter(lines));
   std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));
   if (config.observe != Observe::kPixel)  // whose landmarks come and go
     std::ranges::move(describe_refused_landmarks(recording.innovations, start), std::back_inserter(lines));
