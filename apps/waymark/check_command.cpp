@@ -13,6 +13,7 @@
 #include "workbench/logs/json_text.hpp"
 #include "workbench/report/results.hpp"
 #include "workbench/run/check_gaps.hpp"
+#include "workbench/run/check_gyro.hpp"
 #include "workbench/run/check_jumps.hpp"
 #include "workbench/run/check_log.hpp"
 
@@ -152,10 +153,10 @@ std::vector<std::string> find_oddities(const CheckRequest& request, const Config
   if (contents.blank_images > 0)
     oddities.push_back(
         fmt::format("{} images show nothing: all pixels are nearly equal", contents.blank_images));
-  std::ranges::move(describe(contents.gaps, contents.start.value_or(Stamp{}), config.pipeline.max_hold_s),
-                    std::back_inserter(oddities));
-  std::ranges::move(describe(jumps_of(contents.sample, config), contents.start.value_or(Stamp{})),
-                    std::back_inserter(oddities));
+  const Stamp start = contents.start.value_or(Stamp{});
+  std::ranges::move(describe(contents.gaps, start, config.pipeline.max_hold_s), std::back_inserter(oddities));
+  std::ranges::move(describe(jumps_of(contents.sample, config), start), std::back_inserter(oddities));
+  std::ranges::move(describe(gyro_of(contents.sample, config), start), std::back_inserter(oddities));
   std::ranges::move(contradictions_in(contents.sample, config), std::back_inserter(oddities));
   std::ranges::move(survey_oddities(request, log, contents), std::back_inserter(oddities));
   return oddities;

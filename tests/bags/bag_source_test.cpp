@@ -399,6 +399,52 @@ TEST(BagSource, CountsObservationsWithoutAUsableIdentityOnce) {
               Contains(HasSubstr("/markers: 3 observations without a usable identity left out")));
 }
 
+std::string imu(double stamp_s, std::string_view frame, double w_radps) {
+  Wire wire = with_header(stamp_s, frame);
+  for (int i = 0; i < 4 + 9; ++i) wire.add(0.0);
+  wire.add(w_radps).add(0.0).add(0.0);  // about its x axis
+  for (int i = 0; i < 9 + 3 + 9; ++i) wire.add(0.0);
+  return wire.bytes();
+}
+
+/// tf_static: an IMU whose x axis points up.
+std::string imu_transform() {
+  Wire wire(Encoding::kRos1);
+  wire.add<std::uint32_t>(1).add<std::int32_t>(0).add<std::uint32_t>(0).text("base_link").text("upright");
+  for (const double value : {0.0, 0.0, 0.2, 0.0, -std::sqrt(0.5), 0.0, std::sqrt(0.5)}) wire.add(value);
+  return wire.bytes();
+}
+
+std::unique_ptr<MadeBag> bag_with_imus() {
+  auto made = std::make_unique<MadeBag>();
+  const auto frames = made->topic("/tf_static", "tf2_msgs/TFMessage");
+  const auto speed = made->topic("/speed", "geometry_msgs/TwistStamped");
+  const auto other = made->topic("/a_imu", "sensor_msgs/Imu");
+  const auto mounted = made->topic("/imu", "sensor_msgs/Imu");
+  made->add(frames, 0.0, imu_transform());
+  made->add(speed, 1.0, twist(1.0, 0.5));
+  for (int i = 0; i < 5; ++i) made->add(other, 1.0 + i, imu(1.0 + i, "somewhere", 9.0));
+  made->add(mounted, 1.0, imu(1.0, "upright", 0.25));
+  return made;
+}
+
+TEST(BagSource, TakesTheYawRateOfTheImuWhoseMountIsKnown) {
+  const auto source = source_of(bag_with_imus());
+  const auto rates = test::only<YawRate>(test::read_all(*source).events);
+  ASSERT_EQ(rates.size(), 1U);
+  EXPECT_NEAR(rates[0].second.w_radps, 0.25, 1e-12);
+  EXPECT_THAT(source->notes(),
+              Contains(HasSubstr("the gyro: /imu is used, not /a_imu; set input.imu_topic to change that")));
+}
+
+TEST(BagSource, TakesTheImuThatIsNamedOrNone) {
+  const auto named = source_of(bag_with_imus(), {.imu_topic = "/a_imu"});
+  EXPECT_EQ(test::only<YawRate>(test::read_all(*named).events).size(), 5U);
+  EXPECT_THAT(named->notes(), Contains(HasSubstr("/a_imu: no tf_static has its frame on the robot")));
+  const auto none = source_of(bag_with_imus(), {.imu_topic = "none"});
+  EXPECT_TRUE(test::only<YawRate>(test::read_all(*none).events).empty());
+}
+
 std::string tag_corners(double stamp_s, std::initializer_list<std::pair<double, double>> corners) {
   Wire wire = with_header(stamp_s, "camera");
   wire.add<std::uint32_t>(1).text("tag25h9").add<std::int32_t>(17).add<std::int32_t>(0);

@@ -14,6 +14,14 @@ TEST(LogSample, TakesOdometryOfTheFirstStreamOnly) {
   EXPECT_EQ(sample.odometry.size(), 1U);
 }
 
+TEST(LogSample, KeepsTheGyroApart) {
+  LogSample sample;
+  sample.add(Event(Stamp{}, Velocity{}), {});
+  sample.add(Event(Stamp{}, YawRate{}), {});
+  EXPECT_EQ(sample.odometry.size(), 1U);
+  EXPECT_EQ(sample.yaw_rates.size(), 1U);
+}
+
 TEST(LogSample, FreesObservationsFromKnownErrors) {
   LandmarkSensor sensor;
   sensor.range_scale = 2.0;

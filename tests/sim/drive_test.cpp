@@ -49,6 +49,31 @@ TEST(Drive, TakesTheTimeOfTheLap) {
   EXPECT_NEAR(to_seconds(driven.end()), 2.0 * lap_duration_s(make_path(options.path, 1), options), 1e-9);
 }
 
+TEST(Drive, StandsBeforeItDrives) {
+  SimOptions options = without_slip();
+  options.path.stand_s = 2.0;
+  const Drive driven = run(options);
+  EXPECT_EQ(driven.at(stamp_from_seconds(1.99)), driven.at(Stamp{}));
+  EXPECT_NE(driven.at(stamp_from_seconds(2.5)), driven.at(Stamp{}));
+  EXPECT_NEAR(to_seconds(driven.end()), 2.0 + 88.0, 1e-9);
+}
+
+TEST(Drive, WheelsThatSlipInTurnsTurnFartherThanTheRobot) {
+  SimOptions options = without_slip();
+  options.faults.turn_slip_ratio = 0.3;
+  double wheels_rad = 0.0;
+  double robot_rad = 0.0;
+  for (const DriveStep& step : run(options).steps) {
+    wheels_rad += step.command.turn_rad;
+    robot_rad += step.command.turn_rad + step.slip.z();
+    if (step.command.distance_m > 0.0) {
+      EXPECT_EQ(step.slip.z(), 0.0) << "on straight lines";
+    }
+  }
+  EXPECT_GT(wheels_rad - robot_rad, 0.05 * 2.0 * kPi);
+  EXPECT_LT(wheels_rad - robot_rad, 0.3 * 2.0 * kPi);
+}
+
 TEST(Drive, SlipMovesTheRobotButItReturnsToThePath) {
   SimOptions options;
   options.path.laps = 5;

@@ -145,7 +145,8 @@ Motion Gyro::held(const Motion& odometry, const Turns& turns, double gain) {
   if (gain > 0.0)
     motion = turned_as_measured(odometry, turns.odometry_rad + more_rad,
                                 gain * step_variance(turns.duration_s), arc_);
-  if (made_up.theta_rad != 0.0) motion.increment = motion.increment * made_up;
+  motion.increment = made_up.theta_rad == 0.0 ? motion.increment : motion.increment * made_up;
+  motion.covariance(2, 2) += square(made_up.theta_rad);  // landmarks may have mended some of it
   return motion;
 }
 
@@ -194,12 +195,12 @@ void Gyro::learn(const Turns& turns) {
 void Gyro::put_on_trial(const Turns& turns) {
   const double gyro_rad = unbiased(turns);
   if (turns.stands() && !is_turned(turns)) return;
-  trial_.sum += turns;
   if (std::abs(turns.odometry_rad) > kStraight_rad) {
     trial_.turned_rad += std::abs(turns.odometry_rad);
     trial_.products_rad2 += gyro_rad * turns.odometry_rad;
     trial_.squares_rad2 += square(turns.odometry_rad);
   } else if (std::abs(gyro_rad) > kTurns_rad) {
+    trial_.alone += turns;
     trial_.alone_rad += std::abs(gyro_rad);
   }
   if (trial_.turned_rad >= kTrial_rad) {
@@ -211,16 +212,16 @@ void Gyro::put_on_trial(const Turns& turns) {
   }
 }
 
-/// What the gyro knew better meanwhile is made up for.
+/// The odometry stated how unsure its turns are, so a filter has made up for them by now, unless it told
+/// none.
 void Gyro::believe(double factor) {
   findings_.is_believed = true;
   findings_.factor = factor;
   bias_radps_ *= factor;
   bias_var_ = findings_.has_stood ? square(factor) * bias_var_ : bias_var_;
   if (noise_readings_ > 0) noise_rad2_per_s_ *= square(factor);
-  for (Turns* turns : {&trial_.sum, &last_window_, &since_change_}) turns->gyro_rad *= factor;
-  const double gain = trial_.sum.odometry_var_rad2 / variance(trial_.sum);
-  owed_rad_ = (findings_.odometry_turns ? gain : 1.0) * apart(trial_.sum);
+  for (Turns* turns : {&trial_.alone, &last_window_, &since_change_}) turns->gyro_rad *= factor;
+  if (!findings_.odometry_turns) owed_rad_ = apart(trial_.alone);
 }
 
 GyroFindings Gyro::findings() const {

@@ -14,8 +14,7 @@ namespace waymark {
 ///
 /// The gyro is on trial until it has turned as the odometry did, 0.3 rad in all, or 0.5 rad beside an
 /// odometry that never turns; the trial finds its sign, and degrees in place of radians. From then on the
-/// turn of a step is the mean of both, weighted by their variances, which nearly is the gyro's. The turn
-/// missed meanwhile is made up for.
+/// turn of a step is the mean of both, weighted by their variances, which nearly is the gyro's.
 ///
 /// The bias, and the white noise, are learnt while the wheels stand; until they first do, the bias while they
 /// drive straight. Half a second in which both turned differently by more than 0.1 rad (stamps 0.1 s apart at
@@ -57,11 +56,11 @@ class Gyro {
   };
   /// Sums over half seconds in which the robot did not stand.
   struct Trial {
-    Turns sum;
     double turned_rad = 0.0;  // the odometry
     double products_rad2 = 0.0;
     double squares_rad2 = 0.0;
-    double alone_rad = 0.0;  // the gyro's turn where the odometry did not
+    Turns alone;  // where the gyro turned and the odometry did not
+    double alone_rad = 0.0;
   };
 
   [[nodiscard]] double unbiased(const Turns& turns) const;

@@ -6,6 +6,11 @@ void describe(Schema& schema, BagOptions& o) {
   schema.text("input.odometry_topic", o.odometry_topic,
               "topic of a bag with the odometry; empty: chosen by message type; none: ignore",
               Shown::kAlways);
+  schema.text(
+      "input.imu_topic", o.imu_topic,
+      "topic of a bag with an IMU, whose gyro holds the heading of the odometry; empty: chosen by name and "
+      "frame; none: ignore",
+      Shown::kAlways);
   schema.text("input.observation_topic", o.observation_topic,
               "topic of a bag with detected markers; empty: the one with most messages; none: ignore",
               Shown::kAlways);

@@ -15,6 +15,7 @@ struct BagOptions {
   enum class Stamps { kHeader, kRecorded };
 
   std::string odometry_topic;
+  std::string imu_topic;
   std::string observation_topic;
   std::string image_topic;
   std::string camera_info_topic;

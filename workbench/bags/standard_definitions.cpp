@@ -41,6 +41,11 @@ constexpr std::array kStandardTypes{
     StandardType{
         "sensor_msgs/JointState",
         "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n"},
+    StandardType{"sensor_msgs/Imu",
+                 "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n"
+                 "float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n"
+                 "float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n"
+                 "float64[9] linear_acceleration_covariance\n"},
     StandardType{"sensor_msgs/Image",
                  "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
                  "uint32 step\nuint8[] data\n"},

@@ -11,6 +11,7 @@
 #include "workbench/bags/camera_messages.hpp"
 #include "workbench/bags/detection_messages.hpp"
 #include "workbench/bags/image_messages.hpp"
+#include "workbench/bags/imu_messages.hpp"
 #include "workbench/bags/mount_plan.hpp"
 #include "workbench/bags/odometry_messages.hpp"
 #include "workbench/logs/camera_yaml.hpp"
@@ -62,6 +63,7 @@ class Planner {
     look_at_first_messages();
     look_at_transforms();
     if (auto done = choose_motion(); !done) return done.error();
+    if (auto done = choose_imu(); !done) return done.error();
     if (auto done = choose_images(); !done) return done.error();
     if (auto done = settle_mount(); !done) return done.error();
     if (auto done = choose_detections(); !done) return done.error();
@@ -89,7 +91,7 @@ class Planner {
 
   void look_at_first_messages() {
     std::vector<bool> wanted(topics().size(), false);
-    for (const auto& rank : {motion_rank, detection_rank, outline_rank, image_rank, camera_rank})
+    for (const auto& rank : {motion_rank, imu_rank, detection_rank, outline_rank, image_rank, camera_rank})
       for (const std::size_t place : fit(rank)) wanted[place] = true;
     bag_.rewind(wanted);
     auto missing = std::ranges::count(wanted, true);
@@ -198,6 +200,49 @@ class Planner {
     return {};
   }
 
+  /// The IMU beside the odometry, first of all those that a transform has on the robot.
+  Result<void> choose_imu() {
+    if (plan_.used.empty() && options_.imu_topic.empty()) return {};
+    const auto rank = [this](const Topic& topic) {
+      constexpr int kBehindKnown = 10;
+      const int by_name = imu_rank(topic);
+      return by_name < 0 || imu_on_robot(topic) ? by_name : by_name + kBehindKnown;
+    };
+    const Role role{"the gyro", "input.imu_topic", 0, rank,
+                    [this](const Topic& topic) { return imu_reader(topic, imu_vertical(topic)); }};
+    const auto place = choose(role, options_.imu_topic);
+    if (!place) return place.error();
+    if (!*place || imu_on_robot(topics()[**place])) return {};
+    const Topic& topic = topics()[**place];
+    const Eigen::Vector3d up = imu_vertical(topic);
+    plan_.notes.push_back(fmt::format(
+        "{}: no tf_static has its frame on the robot; its {} axis is taken as the vertical by gravity",
+        topic.name,
+        up.x() != 0.0   ? "x"
+        : up.y() != 0.0 ? "y"
+                        : "z"));
+    return {};
+  }
+
+  /// Upwards, in the axes of the IMU.
+  [[nodiscard]] Eigen::Vector3d imu_vertical(const Topic& topic) const {
+    if (const auto T_robot_imu = imu_on_robot(topic)) return T_robot_imu->linear().row(2).transpose();
+    const std::string* first = first_of(topic);
+    return first != nullptr ? vertical_by_gravity(topic, *first) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  }
+
+  [[nodiscard]] std::optional<Eigen::Isometry3d> imu_on_robot(const Topic& topic) const {
+    const std::string* first = first_of(topic);
+    return first != nullptr ? on_robot(read_frame(topic, *first, "header.frame_id")) : std::nullopt;
+  }
+
+  /// The first message of a topic; null: it has none.
+  [[nodiscard]] const std::string* first_of(const Topic& topic) const {
+    const auto first = std::ranges::find_if(
+        first_, [&](const auto& message) { return topics()[message.first].name == topic.name; });
+    return first == first_.end() ? nullptr : &first->second;
+  }
+
   Result<void> choose_images() {
     const Role role{"images", "input.image_topic", kImageOrder, image_rank, image_reader};
     const auto place = choose(role, options_.image_topic);
@@ -288,6 +333,12 @@ class Planner {
     return "";
   }
 
+  /// Where a frame is on the robot.
+  [[nodiscard]] std::optional<Eigen::Isometry3d> on_robot(const std::string& frame) const {
+    const auto planned = plan_mount(frames_, robot_frames_, frame, "");
+    return planned ? planned->T_robot_frame : std::nullopt;
+  }
+
   void add_setting(const char* key, double value) {
     std::string text;
     append_shortest(text, value);
@@ -372,8 +423,8 @@ class Planner {
       const auto use = uses_.find(i);
       plan_.info.topics.push_back({name, type, messages, use == uses_.end() ? "" : use->second});
       const bool known = std::ranges::any_of(
-          std::initializer_list<int (*)(const Topic&)>{motion_rank, detection_rank, outline_rank, image_rank,
-                                                       camera_rank, transform_rank},
+          std::initializer_list<int (*)(const Topic&)>{motion_rank, imu_rank, detection_rank, outline_rank,
+                                                       image_rank, camera_rank, transform_rank},
           [&](auto rank) { return rank(topics()[i]) >= 0; });
       if (!known || encoding == Encoding::kOther) unused.push_back(fmt::format("{} ({})", name, type));
     }

@@ -23,6 +23,7 @@ class ImageLoader final : public Source {
   [[nodiscard]] Result<std::optional<Event>> next() override;
   [[nodiscard]] std::vector<std::string> notes() const override;
   [[nodiscard]] double progress() const override { return source_->progress(); }
+  [[nodiscard]] std::optional<Replay> replay() const override { return source_->replay(); }
 
  private:
   [[nodiscard]] bool load(Image& image);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "workbench/run/check_gaps.hpp"
+#include "workbench/run/check_gyro.hpp"
 #include "workbench/run/check_jumps.hpp"
 #include "workbench/run/check_log.hpp"
 #include "workbench/run/check_refusals.hpp"
@@ -149,6 +150,7 @@ std::vector<std::string> find_contradictions(const Recording& recording, const L
   std::ranges::move(describe(recording.counts.odometry_gaps, start, config.pipeline.max_hold_s),
                     std::back_inserter(lines));
   std::ranges::move(describe(recording.counts.odometry_jumps, start), std::back_inserter(lines));
+  std::ranges::move(describe(recording.counts.gyro, start), std::back_inserter(lines));
   std::ranges::move(describe(recording.losses, start), std::back_inserter(lines));
   std::ranges::move(contradictions_in(sample, config), std::back_inserter(lines));
   if (config.observe != Observe::kPixel)  // whose landmarks come and go

@@ -7,11 +7,12 @@ namespace waymark {
 void LogSample::add(const Event& event, const LandmarkSensor& sensor) {
   if (const auto* observed = std::get_if<Observations>(&event.content))
     return add(event.stamp, *observed, sensor);
-  if (!is_odometry(event.content) || odometry.size() == kMost) return;
-  const bool is_of_first_stream =
-      odometry.empty() ||
-      (odometry.front().stream == event.stream && odometry.front().content.index() == event.content.index());
-  if (is_of_first_stream) odometry.push_back(event);
+  if (!measures_motion(event.content)) return;
+  auto& kept = is_odometry(event.content) ? odometry : yaw_rates;
+  if (kept.size() == kMost) return;
+  const bool is_of_first_stream = kept.empty() || (kept.front().stream == event.stream &&
+                                                   kept.front().content.index() == event.content.index());
+  if (is_of_first_stream) kept.push_back(event);
 }
 
 void LogSample::add(Stamp stamp, std::span<const Observation> observed, const LandmarkSensor& sensor) {

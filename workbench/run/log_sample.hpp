@@ -10,7 +10,7 @@
 
 namespace waymark {
 
-/// Odometry and observations of a log, by which it is judged whether its numbers can be right.
+/// Odometry, gyro and observations of a log, by which it is judged whether its numbers can be right.
 struct LogSample {
   struct Observed {
     Stamp stamp;
@@ -21,7 +21,8 @@ struct LogSample {
   /// Of each kind: the first half an hour and more of a log.
   static constexpr std::size_t kMost = 50'000;
 
-  std::vector<Event> odometry;  ///< of the first stream, in the log's order
+  std::vector<Event> odometry;   ///< of the first stream, in the log's order
+  std::vector<Event> yaw_rates;  ///< likewise
   std::vector<Observed> observations;
 
   /// Takes what an event has of these, as far as there is room.

@@ -47,6 +47,13 @@ Pose2 carried(const Pose2& T_world_robot, const FaultOptions& options, std::uint
           wrap_angle(T_world_robot.theta_rad + turn_rad)};
 }
 
+/// The part of a turn that the wheels make without the robot.
+double turn_slip(const FaultOptions& options, std::uint64_t turn, std::uint64_t seed) {
+  if (options.turn_slip_ratio <= 0.0) return 0.0;
+  return RandomStream(seed, StreamPurpose::kSimulation, turn, kTurnSlip)
+      .uniform(0.0, options.turn_slip_ratio);
+}
+
 class Driver {
  public:
   Driver(const SimOptions& options, const Pose2& T_world_start, std::uint64_t seed)
@@ -58,8 +65,14 @@ class Driver {
     drive_.rate_hz = options.wheels.rate_hz;
   }
 
+  void stand(double duration_s) {
+    const double count = duration_s * options_.wheels.rate_hz;
+    while (static_cast<double>(drive_.steps.size()) < count) step({});
+  }
+
   void follow(const PathSegment& segment) {
     const int count = steps_of(segment, options_);
+    slip_ratio_ = segment.arc.turn_rad != 0.0 ? turn_slip(options_.faults, turns_++, seed_) : 0.0;
     for (int i = 0; i < count; ++i) {
       const ArcStep planned{segment.arc.distance_m / count, segment.arc.turn_rad / count};
       carry_if_due();
@@ -80,6 +93,7 @@ class Driver {
   void step(const ArcStep& command) {
     RandomStream random(seed_, StreamPurpose::kSimulation, drive_.steps.size(), 0);
     DriveStep next{T_world_robot_, command, draw_slip(options_.wheels, command, random), {}};
+    next.slip.z() -= slip_ratio_ * command.turn_rad;
     next.counted = encoder_increment(options_.wheels, command, random);
     T_world_robot_ = next.at(1.0);
     drive_.steps.push_back(next);
@@ -89,6 +103,8 @@ class Driver {
   std::uint64_t seed_;
   double max_turn_rad_;  // in a step
   double carried_at_step_;
+  double slip_ratio_ = 0.0;  // of the turn that goes on
+  std::uint64_t turns_ = 0;
   Pose2 T_world_robot_;
   Drive drive_;
 };
@@ -119,6 +135,7 @@ double lap_duration_s(const Path& path, const SimOptions& options) {
 
 Drive drive(const Path& path, const SimOptions& options, std::uint64_t seed) {
   Driver driver(options, path.front().T_world_start, seed);
+  driver.stand(options.path.stand_s);
   for (int lap = 0; lap < options.path.laps; ++lap) {
     for (const PathSegment& segment : path) driver.follow(segment);
   }

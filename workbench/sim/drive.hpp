@@ -46,7 +46,8 @@ struct Drive {
 /// Drives the path. The wheels roll the arcs of the path plus a small correction whenever slip has carried
 /// the robot away from it, as a robot with a perfect view of itself would; without slip it is on the path to
 /// rounding. A robot that is carried (FaultOptions) is put down within one step, with its wheels at rest, and
-/// finds back the same way.
+/// finds back the same way. Wheels that slip in turns roll as planned, and the robot turns less, by a part
+/// that is drawn for every turn.
 [[nodiscard]] Drive drive(const Path& path, const SimOptions& options, std::uint64_t seed);
 
 }  // namespace waymark::sim

@@ -16,7 +16,13 @@ namespace waymark::sim {
 
 /// The random streams of faults, apart from those of noise: a run with faults has the noise of its twin
 /// without.
-enum FaultStream : std::uint32_t { kCarriedRobot = 2, kCarriedLandmark = 3, kFalseFirst = 4, kFalse = 5 };
+enum FaultStream : std::uint32_t {
+  kCarriedRobot = 2,
+  kCarriedLandmark = 3,
+  kFalseFirst = 4,
+  kFalse = 5,
+  kTurnSlip = 6
+};
 
 /// A landmark that someone moves.
 struct CarriedLandmark {

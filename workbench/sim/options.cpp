@@ -32,6 +32,7 @@ void describe(Schema& schema, PathOptions& o) {
   schema.real("sim.speed_mps", o.speed_mps, {0.01, 10.0}, "speed on straight lines, m/s");
   schema.real("sim.turn_rate_max_degps", o.turn_rate_max_degps, {1.0, 720.0},
               "maximum turn rate, degrees per second");
+  schema.real("sim.stand_s", o.stand_s, {0.0, 1e6}, "time for which the robot stands before it drives, s");
 }
 
 void describe(Schema& schema, WorldOptions& o) {
@@ -63,6 +64,16 @@ void describe(Schema& schema, WheelOptions& o) {
               "variance of heading slip, rad^2 per radian turned");
   schema.real("sim.slip_turn_var_rad2_per_m", o.slip_turn_var_rad2_per_m, kVariance,
               "variance of heading slip, rad^2 per metre driven");
+}
+
+void describe(Schema& schema, GyroOptions& o) {
+  schema.real("sim.gyro_rate_hz", o.rate_hz, {0.0, 1000.0}, "readings of a gyro per second; 0: no gyro");
+  schema.real("sim.gyro_noise_deg_per_sqrt_s", o.noise_deg_per_sqrt_s, {0.0, 10.0},
+              "white noise of the gyro, as its turn's standard deviation after a second, degrees");
+  schema.real("sim.gyro_bias_sigma_degps", o.bias_sigma_degps, {0.0, 100.0},
+              "standard deviation of the gyro's bias at the start, degrees per second");
+  schema.real("sim.gyro_bias_walk_degps_per_sqrt_s", o.bias_walk_degps_per_sqrt_s, {0.0, 10.0},
+              "standard deviation by which the gyro's bias changes in a second, degrees per second");
 }
 
 void describe(Schema& schema, SensorOptions& o) {
@@ -181,6 +192,10 @@ void describe(Schema& schema, FaultOptions& o) {
   schema.real("sim.robot_carried_m", o.robot_carried_m, {0.0, 1000.0}, "how far, m, in any direction");
   schema.real("sim.robot_carried_deg", o.robot_carried_deg, {0.0, 180.0},
               "and how much it is turned, degrees, either way");
+  schema.real("sim.turn_slip_ratio", o.turn_slip_ratio, {0.0, 0.9},
+              "maximum part of a turn that the wheels make without the robot; drawn for every turn");
+  schema.real("sim.gyro_stuck_at_s", o.gyro_stuck_at_s, {0.0, 1e6},
+              "time from which the gyro repeats its last reading, s; 0: never");
   schema.boolean(
       "sim.omit_false", o.omit,
       "leave out false observations, and those of a carried landmark: what the log would be without");
@@ -237,6 +252,7 @@ void describe(Schema& schema, SimOptions& options) {
   describe(schema, options.path);
   describe(schema, options.world);
   describe(schema, options.wheels);
+  describe(schema, options.gyro);
   describe(schema, options.sensor);
   describe(schema, options.room);
   describe(schema, options.camera_simulator);
@@ -257,7 +273,7 @@ CameraOptions camera_of(const CameraSimulatorOptions& options) {
 
 Result<void> validate(const SimOptions& options) {
   if (auto limits = validate_limits(options); !limits) return limits;
-  const auto& [path, world, wheels, sensor, room, camera_simulator, truth, faults] = options;
+  const auto& [path, world, wheels, gyro, sensor, room, camera_simulator, truth, faults] = options;
   if (auto lens = validate_lens(camera_simulator); !lens) return lens;
   if (room.scene == SceneKind::kCorridor && path.shape != Shape::kSquare && path.shape != Shape::kLoop)
     return Error{"simulation: sim.scene=corridor needs sim.path=square or sim.path=loop"};

@@ -27,6 +27,7 @@ struct PathOptions {
   double corner_radius_m = 0.0;
   double speed_mps = 0.3;
   double turn_rate_max_degps = 45.0;
+  double stand_s = 0.0;
 };
 
 /// Where landmarks stand.
@@ -52,6 +53,14 @@ struct WheelOptions {
   double slip_lateral_var_m2_per_m = 1e-5;
   double slip_turn_var_rad2_per_rad = 1e-4;
   double slip_turn_var_rad2_per_m = 1e-5;
+};
+
+/// A gyro on the robot; none at a rate of 0. Its bias begins with a draw and walks.
+struct GyroOptions {
+  double rate_hz = 0.0;
+  double noise_deg_per_sqrt_s = 0.02;
+  double bias_sigma_degps = 0.5;
+  double bias_walk_degps_per_sqrt_s = 0.001;
 };
 
 /// What sees landmarks, and how badly.
@@ -119,6 +128,8 @@ struct FaultOptions {
   double robot_carried_at_s = 0.0;
   double robot_carried_m = 2.0;
   double robot_carried_deg = 90.0;
+  double turn_slip_ratio = 0.0;
+  double gyro_stuck_at_s = 0.0;
   bool omit = false;
 };
 
@@ -133,6 +144,7 @@ struct SimOptions {
   PathOptions path;
   WorldOptions world;
   WheelOptions wheels;
+  GyroOptions gyro;
   SensorOptions sensor;
   RoomOptions room;
   CameraSimulatorOptions camera_simulator;

@@ -1,6 +1,7 @@
 #include "workbench/sim/simulation.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "workbench/config/robot_keys.hpp"
 #include "workbench/sim/faults.hpp"
+#include "workbench/sim/gyro.hpp"
 #include "workbench/sim/landmark_sensor.hpp"
 #include "workbench/sim/path.hpp"
 #include "workbench/sim/rooms.hpp"
@@ -166,8 +168,8 @@ void add_images(std::vector<Event>& events, const CameraSimulator& camera_simula
 }
 
 Result<void> check_size(const Path& path, const SimOptions& options) {
-  const double duration_s = options.path.laps * lap_duration_s(path, options);
-  const double events = duration_s * (options.wheels.rate_hz + options.sensor.rate_hz +
+  const double duration_s = options.path.stand_s + options.path.laps * lap_duration_s(path, options);
+  const double events = duration_s * (options.wheels.rate_hz + options.gyro.rate_hz + options.sensor.rate_hz +
                                       options.truth.rate_hz + options.camera_simulator.rate_hz);
   if (events <= kEventsMax) return {};
   return Error{
@@ -198,6 +200,7 @@ Result<std::unique_ptr<Simulation>> Simulation::make(std::string name, const Sim
                {}};
   std::vector<Event> events;
   add_odometry(events, driven, options.wheels);
+  std::ranges::move(gyro_readings(options.gyro, options.faults, driven, seed), std::back_inserter(events));
   add_scans(events, std::move(scans), options.sensor.identities);
   add_truth(events, driven, options.truth);
   std::unique_ptr<CameraSimulator> camera_simulator;

@@ -73,6 +73,15 @@ def velocities(log):
             "twist": {"linear": vector(float(row["v_mps"])), "angular": vector(0.0, 0.0, float(row["w_radps"]))}}
 
 
+def imus(log):
+    for stamp, row in rows(log, "imu.csv"):
+        yield stamp, "/imu", "sensor_msgs/Imu", {
+            "header": header(stamp, "base_link"), "orientation": quaternion((1.0, 0.0, 0.0, 0.0)),
+            "orientation_covariance": [0.0] * 9, "angular_velocity": vector(0.0, 0.0, float(row["w_radps"])),
+            "angular_velocity_covariance": [0.0] * 9, "linear_acceleration": vector(0.0, 0.0, 9.81),
+            "linear_acceleration_covariance": [0.0] * 9}
+
+
 def observations(log):
     """Range and bearing as places before a camera that looks ahead."""
     scans = {}
@@ -130,7 +139,7 @@ def mount(log, stamp):
 
 
 def main(log, out):
-    messages = [m for kind in (joint_states, odometry, velocities, observations, images) for m in kind(log)]
+    messages = [m for kind in (joint_states, odometry, velocities, imus, observations, images) for m in kind(log)]
     first = min(stamp for stamp, *_ in messages)
     messages = [*mount(log, first), *camera(log, first), (first, "/chatter", "std_msgs/String", {"data": "hello"}),
                 *messages]

@@ -30,6 +30,10 @@ const definitions = {
     "MSG: geometry_msgs/PoseWithCovariance\nPose pose\nfloat64[36] covariance\n",
     "MSG: geometry_msgs/TwistWithCovariance\nTwist twist\nfloat64[36] covariance\n"],
   "geometry_msgs/TwistStamped": ["std_msgs/Header header\nTwist twist\n", header, time, twist, vector],
+  "sensor_msgs/Imu": ["std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n" +
+    "float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n" +
+    "float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n" +
+    "float64[9] linear_acceleration_covariance\n", header, time, quaternion, vector],
   "fiducial_msgs/FiducialTransformArray": ["# who was seen\nuint8 FEW=3\nstd_msgs/Header header\nint32 image_seq 0\n" +
     "FiducialTransform[<=100] transforms\n", header, time, transform, vector, quaternion,
     "MSG: fiducial_msgs/FiducialTransform\nint32 fiducial_id\ngeometry_msgs/Transform transform\n" +
