@@ -72,7 +72,7 @@ struct Name {
   friend auto operator<=>(const Name&, const Name&) = default;
 };
 
-std::string to_string(const Name& name) { return name.letters + std::to_string(name.number); }
+std::string text_of(const Name& name) { return name.letters + std::to_string(name.number); }
 
 /// GTSAM writes a letter and a number as one number, with the letter in the upper of 8 bytes.
 std::optional<Name> parse_name(std::string_view text) {
@@ -109,7 +109,7 @@ struct GraphText {
   }
 };
 
-Result<GraphLine> read_graph_line(const TextLines& lines, const LineKind& kind, std::string_view rest) {
+Result<GraphLine> read_known_line(const TextLines& lines, const LineKind& kind, std::string_view rest) {
   std::vector<std::string_view> words;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) words.push_back(word);
   GraphLine line{&kind, lines.number(), {}, {}, {}};
@@ -148,7 +148,7 @@ Result<GraphText> read_graph_text(const fs::path& file) {
       ++graph.unknown[std::string(word.substr(0, 40))];
       continue;
     }
-    auto line = read_graph_line(*lines, *kind, rest);
+    auto line = read_known_line(*lines, *kind, rest);
     if (!line) return line.error();
     graph.lines.push_back(*std::move(line));
   }
@@ -192,7 +192,7 @@ std::optional<Eigen::Matrix<double, n, n>> noise_of(const GraphLine& line, std::
 }
 
 /// The graph as a log: poses in order, what was seen from each, and what is true where it is stated.
-struct Graph {
+struct LandmarkGraph {
   struct Step {
     Eigen::Isometry3d moved;
     std::optional<Eigen::Matrix3d> covariance;
@@ -215,7 +215,7 @@ struct Graph {
 };
 
 /// Poses of the first robot by number; stamps count where they grow from one to the next.
-void order_poses(const GraphText& text, Graph& graph) {
+void order_poses(const GraphText& text, LandmarkGraph& graph) {
   std::map<Name, std::optional<Stamp>> found;
   for (const GraphLine& line : text.lines) {
     if (line.kind->part == Part::kPose) found.emplace(*parse_name(line.names[0]), line.stamp);
@@ -240,12 +240,12 @@ void order_poses(const GraphText& text, Graph& graph) {
   for (std::size_t i = 0; i < graph.stamps.size(); ++i) graph.stamps[i] = Stamp{std::chrono::seconds(i)};
 }
 
-std::optional<std::size_t> index_of(const Graph& graph, const std::string& name) {
+std::optional<std::size_t> index_of(const LandmarkGraph& graph, const std::string& name) {
   const auto found = graph.index.find(*parse_name(name));
   return found == graph.index.end() ? std::nullopt : std::optional(found->second);
 }
 
-void add_odometry(const GraphLine& line, bool is_information, Graph& graph) {
+void add_graph_odometry(const GraphLine& line, bool is_information, LandmarkGraph& graph) {
   const auto from = index_of(graph, line.names[0]), to = index_of(graph, line.names[1]);
   if (!from || !to) return;
   const bool follows = *to == *from + 1, precedes = *from == *to + 1;
@@ -257,11 +257,11 @@ void add_odometry(const GraphLine& line, bool is_information, Graph& graph) {
   }
   const Eigen::Isometry3d moved = motion_in_space(line);
   const auto covariance = noise_of<3>(line, in_space ? 7 : 3, in_space ? 6 : 3, is_information);
-  step = Graph::Step{follows ? moved : moved.inverse(), covariance};
+  step = LandmarkGraph::Step{follows ? moved : moved.inverse(), covariance};
 }
 
-Graph build_graph(const GraphText& text) {
-  Graph graph;
+LandmarkGraph build_graph(const GraphText& text) {
+  LandmarkGraph graph;
   order_poses(text, graph);
   graph.steps.resize(graph.poses.size());
   const bool is_information = !text.is_pyfg();
@@ -276,7 +276,7 @@ Graph build_graph(const GraphText& text) {
                                                    line.kind->in_space ? line.values[2] : 0.0));
         break;
       case Part::kOdometry:
-        add_odometry(line, is_information, graph);
+        add_graph_odometry(line, is_information, graph);
         break;
       default:
         if (const auto pose = index_of(graph, line.names[0]);
@@ -288,7 +288,7 @@ Graph build_graph(const GraphText& text) {
 }
 
 /// Poses of dead reckoning, in the plane.
-Result<std::vector<Pose2>> dead_reckoned(const GraphText& text, const Graph& graph) {
+Result<std::vector<Pose2>> dead_reckoned(const GraphText& text, const LandmarkGraph& graph) {
   constexpr double kHeightShare = 0.01;
   const double kTilt_rad = to_radians(5.0);
   std::vector<Pose2> poses{Pose2{}};
@@ -297,7 +297,7 @@ Result<std::vector<Pose2>> dead_reckoned(const GraphText& text, const Graph& gra
   for (std::size_t i = 1; i < graph.poses.size(); ++i) {
     if (!graph.steps[i])
       return Error{fmt::format("{}: no edge leads from pose {} to {}: a gap in the odometry", text.name,
-                               to_string(graph.poses[i - 1]), to_string(graph.poses[i]))};
+                               text_of(graph.poses[i - 1]), text_of(graph.poses[i]))};
     T = T * graph.steps[i]->moved;
     length_m += graph.steps[i]->moved.translation().norm();
     low_m = std::min(low_m, T.translation().z());
@@ -336,7 +336,7 @@ std::optional<Observation> polar(const GraphLine& line, bool is_information, dou
   return observation;
 }
 
-std::optional<Observation> observation_of(const GraphLine& line, bool is_information, double turn_rad) {
+std::optional<Observation> graph_observation(const GraphLine& line, bool is_information, double turn_rad) {
   if (line.kind->part == Part::kPoint) return polar(line, is_information, turn_rad);
   const double noise = is_information ? 1.0 / line.values[1] : line.values[1];
   Observation observation;
@@ -352,7 +352,7 @@ std::optional<Observation> observation_of(const GraphLine& line, bool is_informa
 }
 
 /// Landmarks by number; where two have the same one, or one is beyond 32 bits, all are counted anew.
-std::map<Name, LandmarkId> ids_of(const Graph& graph) {
+std::map<Name, LandmarkId> ids_of(const LandmarkGraph& graph) {
   std::map<Name, LandmarkId> ids;
   std::map<std::uint64_t, int> uses;
   for (const auto& seen : graph.seen)
@@ -367,7 +367,7 @@ std::map<Name, LandmarkId> ids_of(const Graph& graph) {
 }
 
 /// What one robot's odometry does per metre, where all steps state it: a setting if it is in its range.
-void add_noise(const Graph& graph, double turn_rad, LogInfo& info) {
+void add_graph_noise(const LandmarkGraph& graph, double turn_rad, LogInfo& info) {
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();
   double length_m = 0.0;
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
@@ -385,7 +385,7 @@ void add_noise(const Graph& graph, double turn_rad, LogInfo& info) {
       info.settings.emplace_back(kKeys[i], fmt::format("{:.4g}", each));
 }
 
-std::vector<std::string> notes_of_graph(const GraphText& text, const Graph& graph, double turn_rad) {
+std::vector<std::string> notes_of_graph(const GraphText& text, const LandmarkGraph& graph, double turn_rad) {
   std::vector<std::string> notes;
   notes.emplace_back(text.is_pyfg()
                          ? "the graph's vertices are taken as ground truth, as PyFactorGraph writes it"
@@ -415,11 +415,11 @@ Error no_landmarks(const GraphText& text) {
 }
 
 /// What was seen from each pose.
-std::vector<Observations> scans_of(const Graph& graph, bool is_information, double turn_rad) {
+std::vector<Observations> scans_of(const LandmarkGraph& graph, bool is_information, double turn_rad) {
   std::vector<Observations> scans(graph.poses.size());
   const auto ids = ids_of(graph);
   for (const auto& [pose, landmark, line] : graph.seen) {
-    auto observation = observation_of(*line, is_information, turn_rad);
+    auto observation = graph_observation(*line, is_information, turn_rad);
     if (!observation) continue;
     observation->id = ids.at(landmark);
     scans[pose].push_back(*std::move(observation));
@@ -427,7 +427,8 @@ std::vector<Observations> scans_of(const Graph& graph, bool is_information, doub
   return scans;
 }
 
-void add_truth(const Graph& graph, const Pose2& T_pose_robot, std::vector<Event>& events, LogInfo& info) {
+void add_graph_truth(const LandmarkGraph& graph, const Pose2& T_pose_robot, std::vector<Event>& events,
+                     LogInfo& info) {
   for (std::size_t i = 0; i < graph.poses.size(); ++i) {
     const auto found = graph.true_poses.find(graph.poses[i]);
     if (found == graph.true_poses.end()) continue;
@@ -464,7 +465,7 @@ bool is_landmark_graph(const fs::path& file) {
 Result<std::unique_ptr<Source>> open_landmark_graph(const fs::path& file) {
   const auto text = read_graph_text(file);
   if (!text) return text.error();
-  const Graph graph = build_graph(*text);
+  const LandmarkGraph graph = build_graph(*text);
   if (graph.seen.empty()) return no_landmarks(*text);
   const auto poses = dead_reckoned(*text, graph);
   if (!poses) return poses.error();
@@ -475,13 +476,13 @@ Result<std::unique_ptr<Source>> open_landmark_graph(const fs::path& file) {
                .settings = {},
                .landmarks = {}};
   auto scans = scans_of(graph, !text->is_pyfg(), turn_rad);
-  add_noise(graph, turn_rad, info);
+  add_graph_noise(graph, turn_rad, info);
   std::vector<Event> events;
   for (std::size_t i = 0; i < poses->size(); ++i) {
     events.emplace_back(graph.stamps[i], OdometryPose{T_pose_robot.inverse() * (*poses)[i] * T_pose_robot});
     if (!scans[i].empty()) events.emplace_back(graph.stamps[i], std::move(scans[i]));
   }
-  if (text->is_pyfg()) add_truth(graph, T_pose_robot, events, info);
+  if (text->is_pyfg()) add_graph_truth(graph, T_pose_robot, events, info);
   return std::unique_ptr<Source>(std::make_unique<EventList>(std::move(info), std::move(events),
                                                              notes_of_graph(*text, graph, turn_rad)));
 }

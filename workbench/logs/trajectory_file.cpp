@@ -25,21 +25,21 @@ constexpr const char* kExpected =
 
 enum class Format { kTum, kEuroc, kKitti };
 
-constexpr std::array<const char*, 3> kNames{"TUM", "EuRoC", "KITTI"};
+constexpr std::array<const char*, 3> kFormatNames{"TUM", "EuRoC", "KITTI"};
 
 /// One line with its columns.
-struct Row {
+struct TrajectoryRow {
   int line = 0;
   std::vector<std::string_view> cells;
   std::vector<double> numbers;
 };
 
-struct Rows {
-  std::vector<Row> rows;
+struct TrajectoryRows {
+  std::vector<TrajectoryRow> rows;
   bool has_commas = false;
 };
 
-std::vector<std::string_view> split(std::string_view line) {
+std::vector<std::string_view> split_cells(std::string_view line) {
   std::vector<std::string_view> cells;
   const char separator = line.find(',') != std::string_view::npos ? ',' : ';';
   if (line.find(separator) == std::string_view::npos) {
@@ -58,8 +58,8 @@ std::vector<std::string_view> split(std::string_view line) {
 }
 
 /// The numbers of a row; an error names the first that is none.
-Result<Row> read_row(const TextLines& lines) {
-  Row row{lines.number(), split(lines.line()), {}};
+Result<TrajectoryRow> read_trajectory_row(const TextLines& lines) {
+  TrajectoryRow row{lines.number(), split_cells(lines.line()), {}};
   for (const std::string_view cell : row.cells) {
     const auto number = parse_number(cell);
     if (!number || !std::isfinite(*number)) return lines.error(in_quotes(cell) + " is not a finite number");
@@ -70,16 +70,16 @@ Result<Row> read_row(const TextLines& lines) {
 
 /// A line of column names that is no comment.
 bool is_header(std::string_view line) {
-  const auto cells = split(line);
+  const auto cells = split_cells(line);
   return !cells.empty() && !parse_number(cells.front());
 }
 
-Result<Rows> read_rows(TextLines& lines) {
-  Rows all;
+Result<TrajectoryRows> read_trajectory_rows(TextLines& lines) {
+  TrajectoryRows all;
   bool is_first = true;
   while (lines.next()) {
     if (std::exchange(is_first, false) && is_header(lines.line())) continue;
-    auto row = read_row(lines);
+    auto row = read_trajectory_row(lines);
     if (!row) return row.error();
     if (all.rows.empty()) all.has_commas = lines.line().find(',') != std::string_view::npos;
     if (!all.rows.empty() && row->cells.size() != all.rows.front().cells.size())
@@ -129,16 +129,16 @@ bool is_rotation(const Eigen::Matrix3d& R) {
          R.determinant() > 0.0;
 }
 
-Format format_of(const Rows& all, StampUnit unit, std::optional<bool> w_first) {
-  const Row& first = all.rows.front();
+Format format_of(const TrajectoryRows& all, StampUnit unit, std::optional<bool> w_first) {
+  const TrajectoryRow& first = all.rows.front();
   if (first.cells.size() == kKittiColumns && is_rotation(rotation_of(first.numbers))) return Format::kKitti;
   return w_first.value_or(all.has_commas && unit == StampUnit::kNanoseconds) ? Format::kEuroc : Format::kTum;
 }
 
-std::vector<double> stamps_of(const Rows& all) {
+std::vector<double> stamps_of(const TrajectoryRows& all) {
   std::vector<double> counts;
   counts.reserve(all.rows.size());
-  for (const Row& row : all.rows) counts.push_back(row.numbers.front());
+  for (const TrajectoryRow& row : all.rows) counts.push_back(row.numbers.front());
   return counts;
 }
 
@@ -147,12 +147,12 @@ class RowReader {
  public:
   RowReader(Format format, StampUnit unit) : format_(format), unit_(unit) {}
 
-  Result<SpacePose> pose(const Row& row, std::size_t index) const {
+  Result<SpacePose> pose(const TrajectoryRow& row, std::size_t index) const {
     return format_ == Format::kKitti ? of_matrix(row, index) : of_quaternion(row);
   }
 
  private:
-  [[nodiscard]] Result<SpacePose> of_quaternion(const Row& row) const {
+  [[nodiscard]] Result<SpacePose> of_quaternion(const TrajectoryRow& row) const {
     const auto& n = row.numbers;
     const auto stamp = parse_stamp(row.cells.front(), unit_);
     if (!stamp) return Error{in_quotes(row.cells.front()) + " is not a stamp"};
@@ -162,7 +162,7 @@ class RowReader {
     return SpacePose{*stamp, {n[1], n[2], n[3]}, q.normalized()};
   }
 
-  [[nodiscard]] static Result<SpacePose> of_matrix(const Row& row, std::size_t index) {
+  [[nodiscard]] static Result<SpacePose> of_matrix(const TrajectoryRow& row, std::size_t index) {
     const auto& n = row.numbers;
     const Eigen::Matrix3d R = rotation_of(n);
     if (!is_rotation(R)) return Error{"the matrix is no rotation"};
@@ -174,10 +174,10 @@ class RowReader {
   StampUnit unit_;
 };
 
-Result<SpacePath> read_path(const Rows& all, const RowReader& reader, const std::string& name) {
+Result<SpacePath> read_path(const TrajectoryRows& all, const RowReader& reader, const std::string& name) {
   SpacePath path;
   path.reserve(all.rows.size());
-  for (const Row& row : all.rows) {
+  for (const TrajectoryRow& row : all.rows) {
     const auto pose = reader.pose(row, path.size());
     if (!pose) return Error{fmt::format("{}:{}: {}", name, row.line, pose.error().message)};
     if (!path.empty() && pose->stamp < path.back().stamp)
@@ -208,7 +208,7 @@ std::vector<std::string> notes_of(const TrajectoryFile& file, StampUnit unit, st
     notes.emplace_back("poses without stamps, as in KITTI's files");
   else if (unit != StampUnit::kSeconds)
     notes.push_back(fmt::format("stamps are taken as {}", name_of(unit)));
-  if (file.format == kNames[1])
+  if (file.format == kFormatNames[1])
     notes.emplace_back("quaternions are taken as w, x, y, z, as in EuRoC's files");
   if (file.has_stamps && columns > kTumColumns)
     notes.push_back(fmt::format("rows have {} columns: the first {} are used, stamp, position and quaternion",
@@ -224,14 +224,14 @@ Result<TrajectoryFile> read_trajectory(const std::filesystem::path& path) {
   if (!text) return text.error();
   const auto w_first = names_w_first(*text);
   TextLines lines(*std::move(text), path.string());
-  const auto all = read_rows(lines);
+  const auto all = read_trajectory_rows(lines);
   if (!all) return all.error();
   const StampUnit unit = unit_of(stamps_of(*all));
   const Format format = format_of(*all, unit, w_first);
   auto poses = read_path(*all, RowReader(format, unit), path.string());
   if (!poses) return poses.error();
   TrajectoryFile file{
-      *std::move(poses), kNames[static_cast<std::size_t>(format)], format != Format::kKitti, {}};
+      *std::move(poses), kFormatNames[static_cast<std::size_t>(format)], format != Format::kKitti, {}};
   for (const std::string& note : notes_of(file, unit, all->rows.front().cells.size()))
     file.notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
   return file;
