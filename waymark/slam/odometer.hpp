@@ -42,10 +42,10 @@ class SampledTrack {
 /// odometry that appears counts; a log with two would otherwise move twice. Readings that no robot can follow
 /// (JumpFilter, SpeedFilter) make no motion: it goes on as before them, with noise that covers what was not
 /// measured. Where a gyro tells the yaw rate, it holds the heading (Gyro). Where readings are missing for
-/// longer than they may be held the motion is not known: poses and wheels go evenly to the next reading, if that
-/// has come, and a speed counts no longer; the noise is that of a robot that takes another speed, up to the fastest
-/// so far, every `max_hold_s`. Learns, whenever the robot stands, how its heading turns by itself, and takes that
-/// out.
+/// longer than they may be held the motion is not known: poses and wheels go evenly to the next reading, if
+/// that has come, and a speed counts no longer; the noise is that of a robot that takes another speed, up to
+/// the fastest so far, every `max_hold_s`. Learns, whenever the robot stands, how its heading turns by
+/// itself, and takes that out.
 class Odometer {
  public:
   explicit Odometer(const OdometryOptions& options, double max_hold_s);
