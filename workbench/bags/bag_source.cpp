@@ -84,8 +84,8 @@ class BagSource final : public Source {
       for (auto& note : lane->notes()) bag::add_note(all, std::move(note));
     for (const auto& more : {notes_, tally_.notes(), reasons_})
       std::ranges::copy(more, std::back_inserter(all));
-    for (const auto& [place, topic] : plan_.used)
-      std::ranges::move(topic.reader.notes(), std::back_inserter(all));
+    for (const auto& [place, track] : tracks_)
+      std::ranges::move(track.planned.reader.notes(), std::back_inserter(all));
     return all;
   }
 
