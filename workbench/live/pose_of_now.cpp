@@ -7,7 +7,7 @@ namespace waymark::live {
 namespace {
 
 /// A minute of odometry at 60 Hz: a filter that is farther behind has stopped.
-constexpr std::size_t kMostLegs = 4096;
+constexpr std::size_t kMostSegments = 4096;
 
 /// The last `part` in [0, 1] of a motion along its chord; its noise grows with the way.
 Motion last_part(const Motion& motion, double part) {
@@ -19,7 +19,7 @@ Motion last_part(const Motion& motion, double part) {
 
 PoseOfNow::PoseOfNow(const OdometryOptions& odometry, double max_hold_s)
     : odometer_(odometry, max_hold_s), response_(duration_from_seconds(odometry.response_s)) {
-  legs_.reserve(kMostLegs);
+  segments_.reserve(kMostSegments);
 }
 
 std::optional<StampedPose> PoseOfNow::add(const Event& event) {
@@ -34,7 +34,7 @@ std::optional<StampedPose> PoseOfNow::add(const Event& event) {
   const Motion motion =
       odometer_.advance(shifted.stamp, is_gyro ? nullptr : &shifted, is_gyro ? &shifted : nullptr);
   odometer_.add(shifted);
-  if (reached_ && legs_.size() < kMostLegs) legs_.push_back({*reached_, shifted.stamp, motion});
+  if (reached_ && segments_.size() < kMostSegments) segments_.push_back({*reached_, shifted.stamp, motion});
   reached_ = shifted.stamp;
   if (!now_ || shifted.stamp < now_->stamp) return std::nullopt;
   now_ = StampedPose{shifted.stamp, propagate(now_->estimate, motion)};
@@ -43,17 +43,19 @@ std::optional<StampedPose> PoseOfNow::add(const Event& event) {
 
 void PoseOfNow::correct(const StampedPose& pose) {
   const std::lock_guard lock(mutex_);
-  forget_legs_before(pose.stamp);
+  forget_segments_before(pose.stamp);
   now_ = pose;
-  for (const Leg& leg : legs_) now_ = StampedPose{leg.to, propagate(now_->estimate, leg.motion)};
+  for (const Segment& segment : segments_)
+    now_ = StampedPose{segment.to, propagate(now_->estimate, segment.motion)};
 }
 
-/// A leg that the moment is within keeps its later part.
-void PoseOfNow::forget_legs_before(Stamp stamp) {
-  const auto later = std::ranges::find_if(legs_, [stamp](const Leg& leg) { return leg.to > stamp; });
-  legs_.erase(legs_.begin(), later);
-  if (legs_.empty() || legs_.front().from >= stamp) return;
-  Leg& first = legs_.front();
+/// A segment that the moment is within keeps its later part.
+void PoseOfNow::forget_segments_before(Stamp stamp) {
+  const auto later =
+      std::ranges::find_if(segments_, [stamp](const Segment& segment) { return segment.to > stamp; });
+  segments_.erase(segments_.begin(), later);
+  if (segments_.empty() || segments_.front().from >= stamp) return;
+  Segment& first = segments_.front();
   const double part = to_seconds(first.to - stamp) / to_seconds(first.to - first.from);
   first = {stamp, first.to, last_part(first.motion, part)};
 }

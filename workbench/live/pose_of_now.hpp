@@ -32,18 +32,18 @@ class PoseOfNow {
   [[nodiscard]] std::optional<StampedPose> now() const;
 
  private:
-  struct Leg {
+  struct Segment {
     Stamp from;
     Stamp to;
     Motion motion;
   };
-  void forget_legs_before(Stamp stamp);
+  void forget_segments_before(Stamp stamp);
 
   mutable std::mutex mutex_;
   Odometer odometer_;
   Duration response_;
-  std::optional<Stamp> reached_;  // by the odometer
-  std::vector<Leg> legs_;         // since the filter's pose, in the order of time
+  std::optional<Stamp> reached_;   // by the odometer
+  std::vector<Segment> segments_;  // since the filter's pose, in the order of time
   std::optional<StampedPose> now_;
 };
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "waymark/core/threads.hpp"
+
 #include "workbench/live/ros2_messages.hpp"
 #include "workbench/logs/image_file.hpp"
 #include "workbench/logs/json_event.hpp"
@@ -45,12 +47,10 @@ Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const 
   std::unique_ptr<Recorder> recorder(new Recorder(*std::move(writer)));
   recorder->push_event(json_text(Json{{"session", session}, {"config", config_yaml}}), now);
   try {
-    recorder->thread_ =
-        std::jthread([raw = recorder.get()](const std::stop_token& stop) { raw->work(stop); });
+    const auto work = [raw = recorder.get()] { raw->work(raw->stop_.get_token()); };
+    recorder->thread_ = std::move(start_threads(1, work, [] {}).front());
   } catch (const std::system_error& error) {
-    return Error{
-        fmt::format("{}: the thread of the recording cannot be started: {}", path, error.code().message()),
-        Error::Kind::kFailed};
+    return Error{fmt::format("{}: {}", path, error.what()), Error::Kind::kFailed};
   }
   return recorder;
 }
@@ -122,7 +122,7 @@ void Recorder::work(const std::stop_token& stop) {
 
 void Recorder::stop_thread() {
   if (!thread_.joinable()) return;
-  thread_.request_stop();
+  stop_.request_stop();
   thread_.join();
 }
 

@@ -5,6 +5,8 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -79,7 +81,8 @@ class Recorder {
   std::size_t waiting_bytes_ = 0;
   std::uint64_t bytes_written_ = 0;
   std::string fault_;
-  std::jthread thread_;
+  std::stop_source stop_;
+  std::thread thread_;
 };
 
 }  // namespace waymark::live

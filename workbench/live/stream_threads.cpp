@@ -5,24 +5,25 @@
 
 #include <fmt/format.h>
 
+#include "waymark/core/threads.hpp"
+
 namespace waymark::live {
 
 Result<void> StreamThreads::start(Stream& stream, const SessionClock& clock, Stream::Sink sink) {
+  const auto work = [&stream, &clock, sink = std::move(sink), stop = stop_.get_token()] {
+    stream.run(stop, clock, sink);
+  };
   try {
-    threads_.emplace_back([&stream, &clock, sink = std::move(sink)](const std::stop_token& stop) {
-      stream.run(stop, clock, sink);
-    });
+    threads_.push_back(std::move(start_threads(1, work, [] {}).front()));
   } catch (const std::system_error& error) {
-    return Error{fmt::format("{}: its thread cannot be started: {}", stream.state().summary({}).name,
-                             error.code().message()),
-                 Error::Kind::kFailed};
+    return Error{fmt::format("{}: {}", stream.state().summary({}).name, error.what()), Error::Kind::kFailed};
   }
   return {};
 }
 
-/// All are asked before the first is waited for.
 StreamThreads::~StreamThreads() {
-  for (std::jthread& thread : threads_) thread.request_stop();
+  stop_.request_stop();
+  for (std::thread& thread : threads_) thread.join();
 }
 
 }  // namespace waymark::live

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -21,7 +22,8 @@ class StreamThreads {
   [[nodiscard]] Result<void> start(Stream& stream, const SessionClock& clock, Stream::Sink sink);
 
  private:
-  std::vector<std::jthread> threads_;
+  std::stop_source stop_;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace waymark::live

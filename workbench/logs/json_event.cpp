@@ -30,7 +30,7 @@ std::optional<double> number(const Json& json, const char* name) {
 Result<std::optional<Stamp>> stamp_of(const Json& json) {
   const auto found = json.find("stamp_s");
   if (found == json.end()) return std::optional<Stamp>{};
-  const std::string text = found->is_string() ? found->get<std::string>() : found->dump();
+  const std::string text = found->is_string() ? found->get<std::string>() : json_text(*found);
   const auto stamp = parse_stamp(text);
   if (!stamp) return Error{fmt::format("stamp_s is not a number of seconds: {}", in_quotes(text))};
   return std::optional(*stamp);
@@ -41,7 +41,7 @@ Result<std::optional<LandmarkId>> id_of(const Json& json) {
   if (found == json.end() || found->is_null()) return std::optional<LandmarkId>{};
   if (!found->is_number_integer() || found->get<double>() < 0.0 ||
       found->get<double>() > std::numeric_limits<std::int32_t>::max())
-    return Error{fmt::format("id is not a whole number from 0: {}", in_quotes(found->dump()))};
+    return Error{fmt::format("id is not a whole number from 0: {}", in_quotes(json_text(*found)))};
   return std::optional(LandmarkId{LandmarkId::Family::kMarker, found->get<std::int32_t>()});
 }
 
