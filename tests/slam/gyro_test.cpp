@@ -13,7 +13,7 @@ namespace {
 
 using test::at;
 
-constexpr double kStep_s = 0.02;
+constexpr double kGyroStep_s = 0.02;
 constexpr double kV_mps = 0.4;
 
 /// Odometry and a gyro beside each other: rates of both over a time, in rad/s.
@@ -31,12 +31,12 @@ class GyroRobot {
       : noise_radps_(noise_radps), random_(seed, StreamPurpose::kSimulation) {}
 
   void drive(const Turning& turning, bool is_measured = true) {
-    for (double t_s = 0.0; t_s < turning.for_s - 1e-9; t_s += kStep_s) {
-      gyro.add(at(kStep_s * steps_), {turning.gyro_radps + noise_radps_ * random_.normal()});
-      const Motion told = velocity_motion({turning.v_mps, turning.odometry_radps}, kStep_s, {});
+    for (double t_s = 0.0; t_s < turning.for_s - 1e-9; t_s += kGyroStep_s) {
+      gyro.add(at(kGyroStep_s * steps_), {turning.gyro_radps + noise_radps_ * random_.normal()});
+      const Motion told = velocity_motion({turning.v_mps, turning.odometry_radps}, kGyroStep_s, {});
       ++steps_;
-      last =
-          gyro.hold_heading(told, {at(kStep_s * (steps_ - 1)), at(kStep_s * steps_), is_measured}, nullptr);
+      last = gyro.hold_heading(told, {at(kGyroStep_s * (steps_ - 1)), at(kGyroStep_s * steps_), is_measured},
+                               nullptr);
       theta_rad += last.increment.theta_rad;
       variance_rad2 += last.covariance(2, 2);
       odometry_variance_rad2 += told.covariance(2, 2);
@@ -99,7 +99,7 @@ TEST(Gyro, LearnsItsBiasOnStraightLinesWhereTheWheelsNeverStand) {
 
 TEST(Gyro, IsSurerOfTheHeadingThanTheOdometryAndNotTooSure) {
   constexpr int kRuns = 200;
-  const double noise_radps = to_radians(0.03) / std::sqrt(kStep_s);
+  const double noise_radps = to_radians(0.03) / std::sqrt(kGyroStep_s);
   double sum_rad2 = 0.0;
   double variance_rad2 = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
@@ -145,7 +145,7 @@ TEST(Gyro, ThatIsDeadChangesNothing) {
   EXPECT_FALSE(robot.gyro.findings().is_believed);
   EXPECT_TRUE(robot.gyro.findings().is_constant);
   EXPECT_NEAR(robot.gyro.findings().ratio.value(), 0.0, 1e-3);
-  const Motion told = velocity_motion({kV_mps, 0.5}, kStep_s, {});
+  const Motion told = velocity_motion({kV_mps, 0.5}, kGyroStep_s, {});
   EXPECT_EQ(robot.last.increment, told.increment);
   EXPECT_EQ(robot.last.covariance, told.covariance);
 }
