@@ -16,6 +16,7 @@ using testing::HasSubstr;
 std::string imu_bytes(Encoding encoding, std::initializer_list<double> w_radps, double covariance = 1e-6,
                       const Eigen::Vector3d& a_mps2 = {0.0, 0.0, 9.81}) {
   Wire wire(encoding);
+  if (encoding == Encoding::kRos1) wire.add<std::uint32_t>(0);  // seq
   wire.add<std::int32_t>(7).add<std::uint32_t>(0).text("imu_link");
   for (int i = 0; i < 4 + 9; ++i) wire.add(0.0);
   for (const double value : w_radps) wire.add(value);

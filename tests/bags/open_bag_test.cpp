@@ -32,6 +32,7 @@ namespace fs = std::filesystem;
 std::string twist(Encoding encoding, double stamp_s, double v_mps) {
   const auto nanos = stamp_from_seconds(stamp_s).since_epoch.count();
   Wire wire(encoding);
+  if (encoding == Encoding::kRos1) wire.add<std::uint32_t>(0);  // seq
   wire.add(static_cast<std::int32_t>(nanos / 1'000'000'000))
       .add(static_cast<std::uint32_t>(nanos % 1'000'000'000))
       .text("base_link");
@@ -144,7 +145,7 @@ TEST(OpenBag, BagsWithOtherTopicsOfTheSameTimeAreMerged) {
   const auto number = truth.topic("/truth", "geometry_msgs/PoseStamped");
   for (int i = 0; i < 60; ++i) {
     Wire wire(Encoding::kRos1);
-    wire.add<std::int32_t>(100 + i).add<std::uint32_t>(0).text("world");
+    wire.add<std::uint32_t>(0).add<std::int32_t>(100 + i).add<std::uint32_t>(0).text("world");
     for (const double value : {1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0}) wire.add(value);
     truth.add(number, 100.0 + i, wire.bytes());
   }

@@ -143,7 +143,7 @@ TEST(RecordedBags, MarkersThatADetectorFound) {
   const auto& [range_m, bearing_rad] = std::get<RangeBearing>(scans[0].second[0].value);
   EXPECT_NEAR(range_m, std::hypot(1.673025127085304, 2.89584207865679), 1e-12);
   EXPECT_NEAR(bearing_rad, std::atan2(1.673025127085304, 2.89584207865679), 1e-12);
-  EXPECT_THAT(source->notes(), Contains(HasSubstr("no tf_static has the position of the camera raspicam")));
+  EXPECT_THAT(source->notes(), Contains(HasSubstr("no transform has the position of the camera raspicam")));
 }
 
 TEST(RecordedBags, ACameraThatLooksUpSeesTheCeilingWhereItIs) {
