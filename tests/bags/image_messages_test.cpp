@@ -11,7 +11,6 @@ namespace {
 
 using test::Wire;
 using testing::ElementsAre;
-using testing::ElementsAreArray;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

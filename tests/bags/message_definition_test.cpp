@@ -55,8 +55,9 @@ TEST(MessageDefinition, InTheBagComesFirstAndTheKnownOneNext) {
 TEST(MessageDefinition, ThatCannotBeReadLeavesTheKnownOne) {
   for (const char* stored :
        {"module geometry_msgs { module msg { struct Twist { geometry_msgs::msg::Vector3 linear; }; }; };",
-        "// generated from rosidl\n#include \"geometry_msgs/msg/Vector3.idl\"\n", "{\"type\": \"object\"}",
-        "Vector3 linear\nVector3", "my_msgs/Vector linear\nVector3 angular\n"}) {
+        R"(// generated from rosidl
+#include "geometry_msgs/msg/Vector3.idl")",
+        R"({"type": "object"})", "Vector3 linear\nVector3", "my_msgs/Vector linear\nVector3 angular\n"}) {
     const auto layouts = layouts_of(stored_as("geometry_msgs/Twist", Encoding::kCdr, stored));
     ASSERT_TRUE(layouts.ok()) << layouts.error().message;
     ASSERT_EQ(layouts->size(), 1U) << stored;

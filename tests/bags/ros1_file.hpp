@@ -23,7 +23,7 @@ class Ros1File {
   }
 
   void add(std::uint32_t topic, double recorded_s, const std::string& message) {
-    const auto nanos = static_cast<std::int64_t>(recorded_s * 1e9 + 0.5);
+    const auto nanos = std::llround(recorded_s * 1e9);
     const auto seconds = static_cast<std::uint32_t>(nanos / 1'000'000'000);
     record({{"op", "\x02"},
             {"conn", raw(topic)},
@@ -39,7 +39,7 @@ class Ros1File {
   static std::string raw(std::uint32_t number) { return Wire(Encoding::kRos1).add(number).bytes(); }
   static std::string fields(const Fields& all) {
     Wire wire(Encoding::kRos1);
-    for (const auto& [name, value] : all) wire.text(name + "=" + value);
+    for (const auto& [name, value] : all) wire.text(std::string(name).append("=").append(value));
     return wire.bytes();
   }
   void record(const Fields& head, const std::string& data) {

@@ -5,16 +5,13 @@
 
 #include <gtest/gtest.h>
 
-// simavr has a plain C interface, whose headers are not strict about conversions.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpedantic"
+// A plain C interface.
 extern "C" {
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
 }
-#pragma GCC diagnostic pop
 
 #include "workbench/live/line_splitter.hpp"
 #include "workbench/live/wheel_line.hpp"

@@ -3,12 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <mutex>
 #include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 namespace waymark::live {
 namespace {

@@ -37,7 +37,7 @@ refuses 2 "calibrate: unknown command 'camra'; did you mean camera? See \`waymar
 refuses 2 'run: unknown option --fliter; did you mean --filter? See `waymark run --help`' run sim:square --fliter ekf
 refuses 2 'run: unknown option --frobnicate; see `waymark run --help`' run sim:square --frobnicate
 refuses 2 "check: unexpected argument 'twice'" check sim:square twice
-refuses 2 'give a command: run, demo,'
+refuses 2 'give a command: run, live, demo,'
 refuses 2 'give a log: `waymark run LOG`' run
 refuses 2 'give a second map: `waymark map merge MAP SECOND_MAP --output OUT`' map merge a.waymark
 refuses 2 'give --truth LOG_OR_FILE' eval out

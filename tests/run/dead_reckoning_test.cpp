@@ -34,9 +34,9 @@ TEST(DeadReckoning, FollowsTheFirstStreamAndTheGyro) {
   std::vector<Event> events;
   for (int i = 0; i <= 20; ++i) {
     const double t = 0.1 * i;
-    events.push_back(at(t, Velocity{1.0, 0.0}));
+    events.push_back(at(t, Velocity{1.0, i < 10 ? 0.5 : 0.2}));  // the wheels slip later
     events.push_back(at(t, OdometryPose{{-50.0 * t, 0.0, 0.0}}));
-    events.push_back(at(t, YawRate{0.5}));
+    events.push_back(at(t, YawRate{i % 2 == 0 ? 0.5001 : 0.4999}));
     events.push_back(at(t, Truth{9.0, 9.0, 0.0}));
   }
   const auto path = dead_reckoning(events, Config{});

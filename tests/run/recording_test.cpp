@@ -256,12 +256,12 @@ TEST(Recording, ImagesAndPixelsOfACameraThatNobodyKnowsGiveNoResultAndSayWhatToD
 Result<Recording> record_standing(const std::vector<Event>& more) {
   std::vector<Event> events = more;
   for (int i = 0; i < 100; ++i)
-    events.push_back(
-        {stamp_from_seconds(0.2 * i),
-         Observations{
-             {LandmarkId{LandmarkId::Family::kMarker, 4}, RangeBearing{2.0, 0.0}, {}},
-             {LandmarkId{LandmarkId::Family::kMarker, 5}, RangeBearing{3.0, 1.0}, {}},
-             {LandmarkId{LandmarkId::Family::kMarker, 3}, RangeBearing{2.0, i < 50 ? 0.5 : 2.5}, {}}}});
+    events.emplace_back(
+        stamp_from_seconds(0.2 * i),
+        Observations{
+            {LandmarkId{LandmarkId::Family::kMarker, 4}, RangeBearing{2.0, 0.0}, {}},
+            {LandmarkId{LandmarkId::Family::kMarker, 5}, RangeBearing{3.0, 1.0}, {}},
+            {LandmarkId{LandmarkId::Family::kMarker, 3}, RangeBearing{2.0, i < 50 ? 0.5 : 2.5}, {}}});
   EventList log({.name = "log", .format = "made"}, std::move(events));
   return record(log, {});
 }
@@ -285,7 +285,7 @@ TEST(Recording, NamesALandmarkThatWasCarried) {
 TEST(Recording, SaysWhenTheOdometryJumps) {
   std::vector<Event> velocities;
   for (int i = 0; i < 200; ++i)
-    velocities.push_back({stamp_from_seconds(0.1 * i), Velocity{i == 70 ? 50.0 : 0.0, 0.0}});
+    velocities.emplace_back(stamp_from_seconds(0.1 * i), Velocity{i == 70 ? 50.0 : 0.0, 0.0});
   const auto run = record_standing(velocities);
   ASSERT_TRUE(run.ok() && !run->error);
   EXPECT_LT(run->dead_reckoning.back().pose.position().norm(), 1e-9);

@@ -29,8 +29,8 @@ constexpr double kSlip_m = 0.18;       // sigma of what kSlipInflations add
 /// the innovation covariance of range (m) and bearing (rad); 0 where it has no place.
 double expected_m2(const Innovation& innovation, const ObservedLandmark* seen) {
   if (seen == nullptr || innovation.dof != 2) return 0.0;
-  const double log_det_S = -2.0 * innovation.log_density - innovation.nis - 2.0 * kLogTwoPi;
-  return std::exp(0.5 * log_det_S) * seen->p_robot.norm();
+  const double log_determinant = -2.0 * innovation.log_density - innovation.nis - 2.0 * kLogTwoPi;
+  return std::exp(0.5 * log_determinant) * seen->p_robot.norm();
 }
 
 /// Of the increment that takes the robot to where it sees these landmarks: the inverse of the information

@@ -143,8 +143,7 @@ Motion Odometer::advance_held(Stamp stamp) {
   const Duration held = std::min(stamp, held_until) - *now_;
   if (held <= Duration{0}) return {};
   const double held_s = to_seconds(held);
-  const Motion motion =
-      std::visit([&](const auto& speed) { return motion_of(speed, held_s, options_); }, *held_);
+  Motion motion = std::visit([&](const auto& speed) { return motion_of(speed, held_s, options_); }, *held_);
   if (held_is_measured_) return motion;
   const Eigen::Array2d sigma = held_s * speeds_.fastest();
   return unsure(motion, {sigma[0], 0.0, sigma[1]}, 1.0);
@@ -160,7 +159,7 @@ Motion Odometer::advance_wheels(Stamp stamp, const Event* next) {
   }
   const WheelAngles then = *wheels_now_;
   wheels_now_ = wheel_track_.at(stamp, after ? &*after : nullptr, max_hold_);
-  const Motion motion = wheel_motion(
+  Motion motion = wheel_motion(
       {wheels_now_->left_rad - then.left_rad, wheels_now_->right_rad - then.right_rad}, options_);
   if (sigma.isZero(0.0)) return motion;
   return unsure(motion, robot_sigma(sigma, options_.wheels.track_m),
@@ -177,7 +176,7 @@ Motion Odometer::advance_pose(Stamp stamp, const Event* next) {
   }
   const Pose2 then = *pose_now_;
   pose_now_ = pose_track_.at(stamp, after ? &*after : nullptr, max_hold_);
-  const Motion motion = odometry_pose_motion(then, *pose_now_, options_);
+  Motion motion = odometry_pose_motion(then, *pose_now_, options_);
   if (sigma.isZero(0.0)) return motion;
   return unsure(motion, sigma, pose_track_.part(*now_, stamp, next->stamp));
 }
