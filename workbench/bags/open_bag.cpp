@@ -61,7 +61,7 @@ Result<std::unique_ptr<Reader>> open_bag_file(const fs::path& path) {
 fs::path place_of(const fs::path& named, const fs::path& folder) {
   std::error_code ignored;
   for (const fs::path& name : {named, named.filename()}) {
-    const fs::path file = folder / name;
+    fs::path file = folder / name;
     if (fs::exists(file, ignored)) return file;
     if (fs::exists(file.string() + kPacked, ignored)) return file.string() + kPacked;
     if (file.extension() == kPacked && fs::exists(folder / name.parent_path() / name.stem(), ignored))

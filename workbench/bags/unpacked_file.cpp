@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include "workbench/bags/byte_stream.hpp"
 #include "workbench/bags/decompress.hpp"

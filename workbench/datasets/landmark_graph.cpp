@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -69,7 +70,9 @@ struct GraphLine {
 struct Name {
   std::string letters;
   std::uint64_t number = 0;
-  friend auto operator<=>(const Name&, const Name&) = default;
+  friend bool operator<(const Name& a, const Name& b) {
+    return std::tie(a.letters, a.number) < std::tie(b.letters, b.number);
+  }
 };
 
 std::string text_of(const Name& name) { return name.letters + std::to_string(name.number); }
@@ -290,7 +293,7 @@ LandmarkGraph build_graph(const GraphText& text) {
 /// Poses of dead reckoning, in the plane.
 Result<std::vector<Pose2>> dead_reckoned(const GraphText& text, const LandmarkGraph& graph) {
   constexpr double kHeightShare = 0.01;
-  const double kTilt_rad = to_radians(5.0);
+  const double max_tilt_rad = to_radians(5.0);
   std::vector<Pose2> poses{Pose2{}};
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   double length_m = 0.0, low_m = 0.0, high_m = 0.0, tilt_rad = 0.0;
@@ -305,7 +308,7 @@ Result<std::vector<Pose2>> dead_reckoned(const GraphText& text, const LandmarkGr
     tilt_rad = std::max(tilt_rad, std::acos(std::clamp(T.linear()(2, 2), -1.0, 1.0)));
     poses.push_back(on_floor(T));
   }
-  if (high_m - low_m <= kHeightShare * length_m && tilt_rad <= kTilt_rad) return poses;
+  if (high_m - low_m <= kHeightShare * length_m && tilt_rad <= max_tilt_rad) return poses;
   return Error{
       fmt::format("{}: its poses leave the plane, z spreads over {:.3g} m and they tilt by up to {:.3g} "
                   "deg; Waymark estimates planar paths",

@@ -88,8 +88,8 @@ OutOfPlane out_of_plane(const SpacePath& path) {
 
 bool is_planar(const OutOfPlane& out) {
   constexpr double kShare = 0.01;
-  const double kTilt_rad = to_radians(5.0);
-  return out.height_m <= std::max(kStep_m, kShare * out.length_m) && out.tilt_rad <= kTilt_rad;
+  const double max_tilt_rad = to_radians(5.0);
+  return out.height_m <= std::max(kStep_m, kShare * out.length_m) && out.tilt_rad <= max_tilt_rad;
 }
 
 std::optional<Plane> plane_named(std::string_view name) {

@@ -61,8 +61,7 @@ std::optional<std::string> ArcosSplitter::next() {
     if (count >= 3 && count <= kLongestData + 2) {
       if (bytes_.size() < 3 + count) return std::nullopt;
       const std::string data = bytes_.substr(3, count - 2);
-      const std::uint16_t sum =
-          static_cast<std::uint16_t>(256U * byte(bytes_, count + 1) + byte(bytes_, count + 2));
+      const auto sum = static_cast<std::uint16_t>(256U * byte(bytes_, count + 1) + byte(bytes_, count + 2));
       if (sum == checksum(data)) {
         bytes_.erase(0, 3 + count);
         return data;
