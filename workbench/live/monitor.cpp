@@ -144,12 +144,12 @@ struct MonitorPages {
     constexpr std::string_view kHead =
         "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\n"
         "Connection: close\r\n\r\n";
-    if (mg_write(connection, kHead.data(), kHead.size()) <= 0) return 200;
     std::uint64_t seen = 0;
     {
       const std::lock_guard lock(server.mutex);
       seen = server.version;  // of before: nobody may have looked for long
     }
+    if (mg_write(connection, kHead.data(), kHead.size()) <= 0) return 200;
     ++server.viewers;
     while (!server.stopping) {
       std::string message = ":\n\n";  // a comment: is the viewer still there?
