@@ -1,6 +1,8 @@
 #include "workbench/live/probe.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -66,7 +68,7 @@ Result<std::vector<Probed>> probe(const std::vector<std::unique_ptr<Stream>>& st
                                   const SessionClock& clock, double for_s,
                                   const std::function<bool()>& keep_going) {
   std::vector<std::unique_ptr<Tally>> tallies;
-  for (std::size_t i = 0; i < streams.size(); ++i) tallies.push_back(std::make_unique<Tally>());
+  std::ranges::generate_n(std::back_inserter(tallies), std::ssize(streams), std::make_unique<Tally>);
   {
     StreamThreads threads;
     for (std::size_t i = 0; i < streams.size(); ++i) {

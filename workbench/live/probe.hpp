@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "waymark/core/result.hpp"
+
 #include "workbench/live/stream.hpp"
 
 namespace waymark::live {

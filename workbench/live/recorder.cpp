@@ -128,7 +128,7 @@ void Recorder::stop_thread() {
 
 Result<void> Recorder::close() {
   stop_thread();
-  const auto closed = writer_.close();
+  auto closed = writer_.close();
   bytes_written_ = writer_.bytes_written();
   if (!fault_.empty()) return Error{fault_, Error::Kind::kFailed};
   return closed;
