@@ -21,7 +21,8 @@ TEST(Inbox, GivesWhatArrivedInItsOrder) {
   std::vector<Arrival> arrivals;
   inbox.take(arrivals, Clock::now());
   ASSERT_EQ(arrivals.size(), 5U);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(arrivals[i].arrived, at(static_cast<double>(i)));
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(arrivals[i].arrived, stamp_from_seconds(static_cast<double>(i)));
   inbox.take(arrivals, Clock::now());
   EXPECT_TRUE(arrivals.empty());
 }

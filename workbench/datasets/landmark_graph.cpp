@@ -70,8 +70,8 @@ struct GraphLine {
 struct Name {
   std::string letters;
   std::uint64_t number = 0;
-  friend bool operator<(const Name& a, const Name& b) {
-    return std::tie(a.letters, a.number) < std::tie(b.letters, b.number);
+  bool operator<(const Name& other) const {
+    return std::tie(letters, number) < std::tie(other.letters, other.number);
   }
 };
 

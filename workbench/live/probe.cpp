@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -62,26 +61,32 @@ class Tally {
   double squares_ms2_ = 0.0;
 };
 
+/// A stream, and what came of it.
+struct Listened {
+  Stream* stream;
+  std::unique_ptr<Tally> tally;
+};
+
 }  // namespace
 
 Result<std::vector<Probed>> probe(const std::vector<std::unique_ptr<Stream>>& streams,
                                   const SessionClock& clock, double for_s,
                                   const std::function<bool()>& keep_going) {
-  std::vector<std::unique_ptr<Tally>> tallies;
-  std::ranges::generate_n(std::back_inserter(tallies), std::ssize(streams), std::make_unique<Tally>);
+  std::vector<Listened> listened;
+  for (const auto& stream : streams) listened.push_back({stream.get(), std::make_unique<Tally>()});
   {
     StreamThreads threads;
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-      auto started = threads.start(
-          *streams[i], clock, [tally = tallies[i].get()](const Arrival& arrival) { tally->add(arrival); });
+    for (const auto& [stream, tally] : listened) {
+      auto started =
+          threads.start(*stream, clock, [to = tally.get()](const Arrival& arrival) { to->add(arrival); });
       if (!started) return started.error();
     }
     const Stamp end = clock.now() + duration_from_seconds(for_s);
     while (clock.now() < end && keep_going()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   std::vector<Probed> probed;
-  for (std::size_t i = 0; i < streams.size(); ++i)
-    probed.push_back(tallies[i]->result(streams[i]->state().summary(clock.now())));
+  for (const auto& [stream, tally] : listened)
+    probed.push_back(tally->result(stream->state().summary(clock.now())));
   return probed;
 }
 
